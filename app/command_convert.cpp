@@ -18,12 +18,14 @@
 #include "app/report/statistics.hpp"
 #include "io/formats.hpp"
 #include "io/mesh_file.hpp"
+#include "io/model/distribute.hpp"
 #include "io/model/plane_of_mesh3d.hpp"
 #include "io/model/repeated_rows.hpp"
 #include "io/parts/part_output.hpp"
 #include "io/stream/block_meshes.hpp"
 #include "mesher/base/counted.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/mesh/check/quality.hpp"
 
 namespace quadloop::app {
 
@@ -63,15 +65,17 @@ const io::FileFormat& output_format(const ConvertArguments& arguments) {
 }
 
 /// A 3D mesh that is one cell thick is read as a plane mesh if the output format supports those.
-io::MeshOfFile read_convert_input(const ConvertArguments& arguments) {
+/// *Collective.*
+io::MeshOfFile read_convert_input(const Communicator& comm, const ConvertArguments& arguments) {
   const io::FileFormat& output = output_format(arguments);
   const io::FileFormat* const format = io::format_of(arguments.input);
   if (format != nullptr && !format->holds(Content::mesh) && !output.holds(Content::mesh3d))
     refuse_mesh3d(arguments, output);
-  io::MeshOfFile mesh = io::read_mesh_file(arguments.input);
-  const io::FileMesh* mesh3d = std::get_if<io::FileMesh>(&mesh);
-  if (mesh3d != nullptr && output.holds(Content::mesh) && io::is_one_cell_thick(*mesh3d))
-    return io::plane_of_mesh3d(*mesh3d, arguments.input);
+  io::MeshOfFile mesh = io::read_mesh_file(comm, arguments.input);
+  const io::FileMesh* mesh3d = std::get_if<io::FileMesh>(&mesh);  // whole on the root
+  const bool thin =
+      mesh3d != nullptr && comm.is_root() && output.holds(Content::mesh) && io::is_one_cell_thick(*mesh3d);
+  if (comm.any(thin)) return io::plane_of(comm, std::move(mesh), arguments.input);
   if (mesh3d != nullptr && !output.holds(Content::mesh3d)) refuse_mesh3d(arguments, output);
   if (mesh3d == nullptr && !output.holds(Content::mesh))
     throw InputError(fmt::format(
@@ -80,8 +84,8 @@ io::MeshOfFile read_convert_input(const ConvertArguments& arguments) {
   return mesh;
 }
 
-/// Returns the block that --block names.
-io::MeshOfFile only_block(io::MeshOfFile input, const ConvertArguments& arguments) {
+/// Returns the block that --block names; the mesh is gathered for it. *Collective.*
+io::MeshOfFile only_block(const Communicator& comm, io::MeshOfFile input, const ConvertArguments& arguments) {
   if (arguments.block.empty()) return input;
   const auto* plane = std::get_if<io::LoadedMesh>(&input);
   if (plane == nullptr) throw InputError(arguments.input + ": contains a 3D mesh; --block is for 2D meshes");
@@ -90,19 +94,33 @@ io::MeshOfFile only_block(io::MeshOfFile input, const ConvertArguments& argument
     throw InputError(fmt::format("{}: has no block '{}'; its blocks are {}", arguments.input, arguments.block,
                                  io::some_names(plane->block_names)));
   if (plane->blocks == 1) return input;
-  return io::one_block(*plane, static_cast<std::int32_t>(found - plane->block_names.begin()));
+  io::LoadedMesh whole = io::gathered(comm, *plane);
+  comm.together([&] {
+    if (comm.is_root())
+      whole = io::one_block(whole, static_cast<std::int32_t>(found - plane->block_names.begin()));
+  });
+  return io::distributed(comm, std::move(whole));
 }
 
-/// Returns what was omitted on reading, errors of the mesh, and what is lost on writing.
-template <class AnyMesh>
-std::vector<std::string> warnings_of(const AnyMesh& mesh, const ConvertArguments& arguments) {
+/// Return what was omitted on reading, errors of the mesh, and what is lost on writing; of a 3D mesh on the
+/// root. *Collective.*
+std::vector<std::string> warnings_of(const Communicator&, const io::FileMesh& mesh,
+                                     const ConvertArguments& arguments) {
   std::vector<std::string> warnings = mesh.warnings;
   std::ranges::move(doubts_about(mesh, arguments.input), std::back_inserter(warnings));
   std::ranges::move(io::losses_in(mesh, arguments.output, arguments.format), std::back_inserter(warnings));
   return warnings;
 }
+std::vector<std::string> warnings_of(const Communicator& comm, const io::LoadedMesh& mesh,
+                                     const ConvertArguments& arguments) {
+  std::vector<std::string> warnings = mesh.warnings;
+  std::ranges::move(doubts_about(comm, mesh, arguments.input), std::back_inserter(warnings));
+  std::ranges::move(io::losses_in(comm, mesh, arguments.output, arguments.format),
+                    std::back_inserter(warnings));
+  return warnings;
+}
 
-Statistics statistics_of(const io::FileMesh& mesh) {
+Statistics statistics_of(const Communicator&, const io::FileMesh& mesh) {
   const auto count = [](const auto& rows) { return std::ssize(rows); };
   Statistics statistics;
   statistics.add("nodes", count(mesh.points));
@@ -129,16 +147,17 @@ io::PartRequest part_request(const ConvertArguments& arguments, std::size_t bloc
   return request;
 }
 
-Statistics statistics_of(const io::LoadedMesh& whole) {
-  const auto count = [](const auto& rows) { return std::ssize(rows); };
+Statistics statistics_of(const Communicator& comm, const io::LoadedMesh& loaded) {
+  const auto number = [](const auto& rows) { return std::ssize(rows); };
+  const MeshCounts counts = count(comm, loaded.mesh);
   Statistics statistics;
-  statistics.add("nodes", count(whole.mesh.points));
-  statistics.add("triangles", count(whole.mesh.triangles));
-  statistics.add("quads", count(whole.mesh.quads));
-  statistics.add("blocks", whole.blocks);
-  statistics.add("boundaries", count(whole.mesh.boundaries));
-  statistics.add("variables", whole.solution ? count(whole.solution->names) : 0);
-  statistics.add("cell variables", whole.solution ? count(whole.solution->cells.names) : 0);
+  statistics.add("nodes", counts.nodes);
+  statistics.add("triangles", counts.triangles);
+  statistics.add("quads", counts.quads);
+  statistics.add("blocks", loaded.blocks);
+  statistics.add("boundaries", number(loaded.mesh.boundaries));
+  statistics.add("variables", loaded.solution ? number(loaded.solution->names) : 0);
+  statistics.add("cell variables", loaded.solution ? number(loaded.solution->cells.names) : 0);
   return statistics;
 }
 
@@ -153,27 +172,42 @@ std::optional<WrittenParts> write_parts(const Communicator& comm, const io::Mesh
                                         const ConvertArguments& arguments, io::PartFiles& files) {
   if (arguments.parts == 0) return std::nullopt;
   const io::LoadedMesh* plane = std::get_if<io::LoadedMesh>(&input);
-  if (comm.any(plane == nullptr))
+  if (plane == nullptr)
     throw InputError(arguments.input + ": contains a 3D mesh; only 2D meshes can be partitioned");
-  const auto blocks = static_cast<std::size_t>(comm.maximum(std::int64_t{plane->blocks}));
-  const io::PartRequest request = part_request(arguments, blocks);
-  return WrittenParts{request, io::write_parts_of_root(files, comm, *plane, request)};
+  const io::PartRequest request = part_request(arguments, static_cast<std::size_t>(plane->blocks));
+  return WrittenParts{request, io::write_parts(files, comm, *plane, request)};
 }
 
-/// Writes on the root rank only; `outputs` has a communicator of its own. *Collective.*
-void write_output(const Communicator& comm, const io::MeshOfFile& input, const ConvertArguments& arguments,
-                  io::OutputSet& outputs) {
+/// Writes a plane mesh from all ranks, with its parts. *Collective.*
+std::optional<WrittenParts> write_output(const Communicator& comm, const io::LoadedMesh& mesh,
+                                         const io::MeshOfFile& input, const ConvertArguments& arguments) {
+  io::PartFiles part_files(comm);
+  const std::optional<WrittenParts> parts = write_parts(comm, input, arguments, part_files);
+  io::OutputSet outputs(comm);
+  io::write_mesh(outputs, mesh, arguments.output, arguments.format);
+  part_files.commit(outputs);
+  return parts;
+}
+
+/// Writes a 3D mesh from the root, which has it whole. *Collective.*
+std::optional<WrittenParts> write_output(const Communicator& comm, const io::FileMesh& mesh,
+                                         const io::MeshOfFile& input, const ConvertArguments& arguments) {
+  io::PartFiles part_files(comm);
+  write_parts(comm, input, arguments, part_files);
   comm.together([&] {
     if (!comm.is_root()) return;
-    std::visit([&](const auto& mesh) { io::write_mesh(outputs, mesh, arguments.output, arguments.format); },
-               input);
+    const Communicator alone(MPI_COMM_SELF);
+    io::OutputSet outputs(alone);
+    io::write_mesh(outputs, mesh, arguments.output, arguments.format);
+    outputs.commit();
   });
+  return std::nullopt;
 }
 
-/// On the root rank.
 void report(const CommandContext& context, const io::MeshOfFile& input, const ConvertArguments& arguments,
             const std::optional<WrittenParts>& parts) {
-  Statistics statistics = std::visit([](const auto& mesh) { return statistics_of(mesh); }, input);
+  Statistics statistics =
+      std::visit([&](const auto& mesh) { return statistics_of(context.comm, mesh); }, input);
   std::vector<std::string>& files = context.record.files;
   files = io::with_files_beside({arguments.output}, arguments.format);
   std::string wrote = fmt::format("  wrote {}\n", fmt::join(files, ", "));
@@ -192,20 +226,13 @@ void report(const CommandContext& context, const io::MeshOfFile& input, const Co
 
 void run_convert(const CommandContext& context, const ConvertArguments& arguments) {
   const Communicator& comm = context.comm;
-  io::MeshOfFile input;  // on the root rank only
-  comm.together([&] {
-    output_format(arguments);
-    if (!comm.is_root()) return;
-    input = only_block(read_convert_input(arguments), arguments);
-    context.record.noted = std::visit([&](const auto& mesh) { return warnings_of(mesh, arguments); }, input);
-  });
-  io::PartFiles part_files(comm);
-  const std::optional<WrittenParts> parts = write_parts(comm, input, arguments, part_files);
-  const Communicator alone(MPI_COMM_SELF);
-  io::OutputSet outputs(alone);
-  write_output(comm, input, arguments, outputs);
-  part_files.commit(outputs);
-  if (comm.is_root()) report(context, input, arguments, parts);
+  comm.together([&] { output_format(arguments); });
+  const io::MeshOfFile input = only_block(comm, read_convert_input(comm, arguments), arguments);
+  context.record.noted =
+      std::visit([&](const auto& mesh) { return warnings_of(comm, mesh, arguments); }, input);
+  const std::optional<WrittenParts> parts =
+      std::visit([&](const auto& mesh) { return write_output(comm, mesh, input, arguments); }, input);
+  report(context, input, arguments, parts);
 }
 
 }  // namespace

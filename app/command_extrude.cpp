@@ -24,9 +24,9 @@
 #include "io/text/text_scanner.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/log.hpp"
+#include "mesher/base/parallel/reproducible_sum.hpp"
 #include "mesher/build/mesh_estimate.hpp"
 #include "mesher/mesh/check/quality.hpp"
-#include "mesher/mesh/scatter_blocks.hpp"
 #include "quadloop/quadloop.hpp"
 #include "quadloop/require_input.hpp"
 
@@ -94,39 +94,28 @@ struct Plane {
   Field solution;
 };
 
-/// Returns the mesh that the root has read, without its inner boundaries; an empty one on other ranks.
-/// *Collective.*
-io::LoadedMesh load(const CommandContext& context, const ExtrudeArguments& arguments,
-                    std::vector<std::string>& warnings) {
-  io::LoadedMesh whole;
-  context.comm.together([&] {
+/// Returns the mesh without its inner boundaries. *Collective.*
+Plane load(const CommandContext& context, const ExtrudeArguments& arguments,
+           std::vector<std::string>& warnings) {
+  const Communicator& comm = context.comm;
+  comm.together([&] {
     io::require_readable_suffix(arguments.input);
     io::require_mesh3d_suffix(arguments.output);
-    if (!context.comm.is_root()) return;
-    io::MeshOfFile input = io::read_mesh_file(arguments.input);
-    if (const io::FileMesh* mesh3d = std::get_if<io::FileMesh>(&input);
-        mesh3d != nullptr && !io::is_one_cell_thick(*mesh3d))
-      throw InputError(arguments.input + ": is a 3D mesh already; give a 2D mesh");
-    whole = io::plane_of(std::move(input), arguments.input);
-    require_valid_input(whole, arguments.input);
-    warnings = whole.warnings;
-    for (std::string& loss : io::drop_interfaces(whole, arguments.output))
-      warnings.push_back(std::move(loss));
-    io::list_inner_curves(whole);
-    if (whole.blocks > 1) whole.mesh.blocks = io::plane_blocks(whole);
   });
-  return whole;
-}
-
-/// *Collective.*
-Plane spread(const Communicator& comm, io::LoadedMesh whole) {
-  if (comm.size() == 1) return {std::move(whole.mesh), whole.solution.value_or(Field{})};
-  const MeshOrder order = comm.is_root() ? own_order(whole.mesh) : MeshOrder{};
-  Plane plane{scatter_mesh(comm, whole.mesh, order), {}};
-  plane.mesh.blocks = scatter_blocks(comm, whole.mesh.blocks, order);
-  whole.mesh = {};  // freed before the 3D mesh is streamed
-  plane.solution = scatter_field(comm, whole.solution.value_or(Field{}), plane.mesh, order);
-  return plane;
+  io::MeshOfFile input = io::read_mesh_file(comm, arguments.input);
+  comm.together([&] {
+    const io::FileMesh* mesh3d = std::get_if<io::FileMesh>(&input);
+    if (comm.is_root() && mesh3d != nullptr && !io::is_one_cell_thick(*mesh3d))
+      throw InputError(arguments.input + ": is a 3D mesh already; give a 2D mesh");
+  });
+  io::LoadedMesh loaded = io::plane_of(comm, std::move(input), arguments.input);
+  require_valid_input(comm, loaded, arguments.input);
+  warnings = loaded.warnings;
+  for (std::string& loss : io::drop_interfaces(comm, loaded, arguments.output))
+    warnings.push_back(std::move(loss));
+  io::list_inner_curves(loaded);
+  if (loaded.blocks > 1) loaded.mesh.blocks = io::plane_blocks(loaded);
+  return {std::move(loaded.mesh), loaded.solution.value_or(Field{})};
 }
 
 /// Least file size: the numbers of nodes and cells in the most compact formats.
@@ -186,9 +175,8 @@ void run_extrude(const CommandContext& context, const ExtrudeArguments& argument
   require_one_way(arguments);
   std::vector<std::string>& warnings = context.record.noted;
   const std::vector<double> heights = heights_of(comm, arguments);
-  io::LoadedMesh whole = load(context, arguments, warnings);
-  const double area = comm.is_root() ? area_of(whole.mesh) : 0;
-  Plane plane = spread(comm, std::move(whole));
+  Plane plane = load(context, arguments, warnings);
+  const double area = reproducible_sum(comm, cell_areas(plane.mesh));
   const ExtrusionAxis axis = arguments.axis == "y" ? ExtrusionAxis::y : ExtrusionAxis::z;
   const io::ExtrudedCounts counts(comm, io::extruded(plane.mesh, heights, axis));
   require_room(comm, counts, arguments);

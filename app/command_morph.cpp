@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <mpi.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -17,13 +18,12 @@
 #include "io/formats.hpp"
 #include "io/input/point_table.hpp"
 #include "io/mesh_file.hpp"
-#include "io/model/tidy_mesh.hpp"
 #include "io/solution_file.hpp"
 #include "io/text/text_output.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/timer.hpp"
 #include "mesher/geometry/assemble/assemble.hpp"
-#include "mesher/mesh/scatter_blocks.hpp"
+#include "mesher/mesh/reorder_mesh.hpp"
 #include "quadloop/quadloop.hpp"
 
 namespace quadloop::app {
@@ -42,10 +42,9 @@ struct MorphArguments {
 /// The fields added to OUT for a direction.
 const std::vector<std::string> velocity_names{"dx_ds", "dy_ds"};
 
-/// Input: the geometries on every rank, the mesh on the root.
+/// Input: the geometries, and the mesh in the order of its file.
 struct MorphInput {
-  io::LoadedMesh whole;
-  MeshOrder order;
+  io::LoadedMesh loaded;
   MorphGeometry from, to;
   io::PointVectors direction;  ///< for each point of each line of `to`
 };
@@ -103,15 +102,14 @@ MorphInput load(const CommandContext& context, const MorphArguments& arguments) 
     require_outputs(arguments);
     if (!arguments.output.empty()) io::require_writable_suffix(arguments.output);
     if (!arguments.nodal_gradient.empty()) io::require_solution_suffix(arguments.nodal_gradient);
-    if (!context.comm.is_root()) return;
-    require_other_outputs(arguments);
-    input.whole = io::read_mesh(arguments.input);
-    io::tidy_mesh(input.whole, arguments.input);
-    require_valid_input(input.whole, arguments.input);
-    append(input.whole.warnings);
-    if (!arguments.output.empty()) append(io::losses_in(input.whole, arguments.output));
-    input.order = space_filling_order(input.whole.mesh);
+    if (context.comm.is_root()) require_other_outputs(arguments);
   });
+  input.loaded = io::read_mesh(context.comm, arguments.input);
+  repair(context.comm, input.loaded, arguments.input, [&](const io::LoadedMesh& whole) {
+    require_valid_input(Communicator(MPI_COMM_SELF), whole, arguments.input);
+  });
+  append(input.loaded.warnings);
+  if (!arguments.output.empty()) append(io::losses_in(context.comm, input.loaded, arguments.output));
   input.to = MorphGeometry(context.comm, arguments.geometry);
   append(input.to.warnings());
   if (!arguments.from.empty()) input.from = MorphGeometry(context.comm, arguments.from);
@@ -123,61 +121,49 @@ MorphInput load(const CommandContext& context, const MorphArguments& arguments) 
   return input;
 }
 
-/// Distributes the mesh with its inner lines and blocks. *Collective.*
-Mesh distributed(const Communicator& comm, const MorphInput& input) {
-  Mesh part;
-  if (comm.any(!input.whole.inner_curves.empty())) {
-    io::LoadedMesh listed = input.whole;
-    io::list_inner_curves(listed);
-    part = scatter_mesh(comm, listed.mesh, input.order);
-  } else {
-    part = scatter_mesh(comm, input.whole.mesh, input.order);
-  }
-  part.blocks = scatter_blocks(comm, input.whole.mesh.blocks, input.order);
+/// Returns the mesh along a space-filling curve, with its inner lines and blocks. *Collective.*
+Mesh along_curve(const ReorderedMesh& reordered, const MorphInput& input) {
+  io::LoadedMesh listed = input.loaded;
+  io::list_inner_curves(listed);
+  Mesh part = reordered.mesh(listed.mesh);
+  part.blocks = reordered.blocks(listed.mesh.blocks);
   return part;
 }
 
 /// *Collective.*
-Morph morphed(const Communicator& comm, const MorphArguments& arguments, const MorphInput& input) {
+Morph morphed(const Communicator& comm, const MorphArguments& arguments, const ReorderedMesh& reordered,
+              const MorphInput& input) {
   try {
-    return {comm, distributed(comm, input), input.from, input.to};
+    return {comm, along_curve(reordered, input), input.from, input.to};
   } catch (const TooFar& error) {
     throw InputError(
         fmt::format("{}: cannot morph to {}: {}", arguments.input, arguments.geometry, error.what()));
   }
 }
 
-/// Adds the nodes' velocities to the whole mesh's solution. *Collective.*
-void add_velocities(const Communicator& comm, const Mesh& part, const std::vector<Point>& velocity,
-                    MorphInput& input) {
+/// Adds the nodes' velocities to the mesh's solution. *Collective.*
+void add_velocities(const ReorderedMesh& reordered, const std::vector<Point>& velocity, MorphInput& input) {
   Field field{velocity_names, {}, {}};
   for (const Point& v : velocity) field.values.insert(field.values.end(), {v.x, v.y});
-  const Field of_whole = gather_field(comm, field, part, input.order);
-  if (!comm.is_root()) return;
-  const Field before = input.whole.solution.value_or(Field{});
-  Field& joined = input.whole.solution.emplace(before);
+  field = reordered.field_back(field);
+  const Field before = input.loaded.solution.value_or(Field{});
+  Field& joined = input.loaded.solution.emplace(before);
   std::erase_if(joined.names,
                 [](const std::string& name) { return std::ranges::count(velocity_names, name) > 0; });
   const Field kept = selected(before, joined.names, "the mesh's solution");
   joined.values = kept.values;
-  append_columns(joined, velocity_names, of_whole.values);
+  append_columns(joined, velocity_names, field.values);
 }
 
 /// Reads dJ/dX of the morphed mesh's nodes and writes dJ/d(points) of the geometry. *Collective.*
 void write_outline_gradient(const Communicator& comm, const MorphArguments& arguments,
-                            const MorphInput& input, const Morph& morph) {
-  Field of_whole;
-  comm.together([&] {
-    if (!comm.is_root()) return;
-    const io::LoadedSolution solution = io::read_solution(arguments.nodal_gradient);
-    io::require_same_mesh(solution, input.whole.mesh);
-    of_whole = selected(solution.solution, arguments.fields, arguments.nodal_gradient);
-    of_whole.constants.clear();
-  });
-  const Mesh& part = *morph.mesh();
-  const Field field = scatter_field(comm, of_whole, part, input.order);
+                            const ReorderedMesh& reordered, const MorphInput& input, const Morph& morph) {
+  const io::LoadedSolution solution = io::read_solution(comm, arguments.nodal_gradient);
+  io::require_same_mesh(comm, solution, input.loaded.mesh);
+  const Field field =
+      reordered.field(selected(solution.solution, arguments.fields, arguments.nodal_gradient));
   std::vector<Point> of_nodes;
-  for (const NodeId node : ids_below(NodeId{part.owned_nodes}))
+  for (const NodeId node : ids_below(NodeId{morph.mesh()->owned_nodes}))
     of_nodes.push_back({field.row(node)[0], field.row(node)[1]});
   const io::PointVectors gradient = morph.pull_back(of_nodes);
   io::OutputSet outputs(comm);
@@ -192,13 +178,12 @@ void write_outline_gradient(const Communicator& comm, const MorphArguments& argu
 }
 
 /// *Collective.*
-void use_derivative(const Communicator& comm, const MorphArguments& arguments, const Morph& morph,
-                    MorphInput& input) {
+void use_derivative(const Communicator& comm, const MorphArguments& arguments, const ReorderedMesh& reordered,
+                    const Morph& morph, MorphInput& input) {
   if (morph.report().smoothed)
     throw InputError(arguments.input + ": " + adapt::text_of_smoothing(arguments.geometry));
-  if (!arguments.direction.empty())
-    add_velocities(comm, *morph.mesh(), morph.push_forward(input.direction), input);
-  if (!arguments.outline_gradient.empty()) write_outline_gradient(comm, arguments, input, morph);
+  if (!arguments.direction.empty()) add_velocities(reordered, morph.push_forward(input.direction), input);
+  if (!arguments.outline_gradient.empty()) write_outline_gradient(comm, arguments, reordered, input, morph);
 }
 
 Statistics statistics_of(const MorphReport& report) {
@@ -217,18 +202,16 @@ void run_morph(const CommandContext& context, const MorphArguments& arguments) {
   times.begin("read");
   MorphInput input = load(context, arguments);
   times.begin("morph");
-  const Morph morph = morphed(comm, arguments, input);
-  gather_mesh(comm, *morph.mesh(), input.order, input.whole.mesh);
-  comm.together([&] {
-    if (comm.is_root())
-      require_valid(input.whole, arguments.output.empty() ? arguments.geometry : arguments.output);
-  });
+  const ReorderedMesh reordered(comm, input.loaded.mesh, space_filling_order(comm, input.loaded.mesh));
+  const Morph morph = morphed(comm, arguments, reordered, input);
+  reordered.put_back(*morph.mesh(), input.loaded.mesh);
+  require_valid(comm, input.loaded, arguments.output.empty() ? arguments.geometry : arguments.output);
   if (arguments.wants_derivative()) {
     times.begin("derivative");
-    use_derivative(comm, arguments, morph, input);
+    use_derivative(comm, arguments, reordered, morph, input);
   }
   times.begin("write");
-  if (!arguments.output.empty()) io::write_mesh_of_root(comm, input.whole, arguments.output);
+  if (!arguments.output.empty()) io::write_mesh_file(comm, input.loaded, arguments.output);
   times.end();
   const std::vector<StageRow> stages = stage_rows(comm, times.stages());
   if (!arguments.output.empty()) context.record.files = io::with_files_beside({arguments.output});

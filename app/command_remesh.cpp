@@ -22,7 +22,10 @@
 #include "io/tree/tree_file.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/timer.hpp"
+#include "mesher/mesh/check/quality.hpp"
+#include "mesher/mesh/check/surely_valid.hpp"
 #include "mesher/mesh/check/validate.hpp"
+#include "mesher/mesh/scatter_mesh.hpp"
 #include "quadloop/case/case_input.hpp"
 
 namespace quadloop::app {
@@ -45,36 +48,38 @@ std::vector<std::string> files_beside(const std::string& tree) {
   return files;
 }
 
-MeshCounts counts_of(const Mesh& whole) {
-  return {std::ssize(whole.points), std::ssize(whole.triangles), std::ssize(whole.quads), 0};
-}
-
 /// Returns the mesh of --mesh. It is accepted as the tree's mesh, with moved nodes, if it has the same counts
-/// and valid cells.
-io::LoadedMesh named_mesh(const RemeshArguments& arguments, const TreeAttributes& tree) {
-  io::LoadedMesh named = io::read_mesh(arguments.mesh);
-  adapt::require_counts(counts_of(named.mesh), tree, arguments.mesh, arguments.tree);
-  for (const MeshFault& fault : validate(named.mesh)) {
-    if (fault.rule != MeshRule::indices && fault.rule != MeshRule::positive &&
-        fault.rule != MeshRule::coincident)
-      continue;
-    throw InputError(fmt::format(
-        "{}: is not a mesh of this tree: {} at ({}, {}); give the mesh that was written with the tree",
-        arguments.mesh, fault.what, fault.place.x, fault.place.y));
-  }
+/// and valid cells. *Collective.*
+io::LoadedMesh named_mesh(const Communicator& comm, const RemeshArguments& arguments,
+                          const TreeAttributes& tree) {
+  io::LoadedMesh named = io::read_mesh(comm, arguments.mesh);
+  adapt::require_counts(count(comm, named.mesh), tree, arguments.mesh, arguments.tree);
+  if (is_surely_valid(comm, named.mesh)) return named;
+  const Mesh whole = gather_whole(comm, named.mesh);
+  comm.together([&] {
+    for (const MeshFault& fault : comm.is_root() ? validate(whole) : std::vector<MeshFault>{}) {
+      if (fault.rule != MeshRule::indices && fault.rule != MeshRule::positive &&
+          fault.rule != MeshRule::coincident)
+        continue;
+      throw InputError(fmt::format(
+          "{}: is not a mesh of this tree: {} at ({}, {}); give the mesh that was written with the tree",
+          arguments.mesh, fault.what, fault.place.x, fault.place.y));
+    }
+  });
   return named;
 }
 
 /// Returns the mesh of the solution if the solution's file has another or none: that of --mesh, else the
-/// first file next to the tree that is bitwise the tree's mesh.
-io::LoadedMesh mesh_of_tree(const RemeshArguments& arguments, const TreeAttributes& tree) {
-  if (!arguments.mesh.empty()) return named_mesh(arguments, tree);
+/// first file next to the tree that is bitwise the tree's mesh. *Collective.*
+io::LoadedMesh mesh_of_tree(const Communicator& comm, const RemeshArguments& arguments,
+                            const TreeAttributes& tree) {
+  if (!arguments.mesh.empty()) return named_mesh(comm, arguments, tree);
   const std::vector<std::string> files = files_beside(arguments.tree);
   for (const std::string& file : files) {
-    if (!std::filesystem::exists(file)) continue;
+    if (!comm.any(comm.is_root() && std::filesystem::exists(file))) continue;
     try {
-      io::LoadedMesh loaded = io::read_mesh(file);
-      if (adapt::is_mesh_of_tree(loaded.mesh, tree)) return loaded;
+      io::LoadedMesh loaded = io::read_mesh(comm, file);
+      if (adapt::is_mesh_of_tree(comm, loaded.mesh, tree)) return loaded;
     } catch (const InputError&) {
       continue;  // it was only a guess
     }
@@ -86,29 +91,30 @@ io::LoadedMesh mesh_of_tree(const RemeshArguments& arguments, const TreeAttribut
 }
 
 /// Returns the mesh of the solution, with the solution. Its nodes are those of the tree: bitwise, or else
-/// within 1e-6 of a local edge of those of mesh_of_tree(), which replace them. On the calling rank only.
-io::LoadedMesh solved_mesh(const RemeshArguments& arguments, const TreeAttributes& tree) {
-  io::LoadedSolution solution = io::read_solution(arguments.solution);
+/// within 1e-6 of a local edge of those of mesh_of_tree(), which replace them. *Collective.*
+io::LoadedMesh solved_mesh(const Communicator& comm, const RemeshArguments& arguments,
+                           const TreeAttributes& tree) {
+  io::LoadedSolution solution = io::read_solution(comm, arguments.solution);
   if (solution.mesh)
-    adapt::require_counts(counts_of(solution.mesh->mesh), tree, arguments.solution, arguments.tree);
-  io::LoadedMesh whole;
-  if (solution.mesh && adapt::is_mesh_of_tree(solution.mesh->mesh, tree)) {
-    whole = std::move(*solution.mesh);
+    adapt::require_counts(count(comm, solution.mesh->mesh), tree, arguments.solution, arguments.tree);
+  io::LoadedMesh solved;
+  if (solution.mesh && adapt::is_mesh_of_tree(comm, solution.mesh->mesh, tree)) {
+    solved = std::move(*solution.mesh);
   } else {
-    whole = mesh_of_tree(arguments, tree);
+    solved = mesh_of_tree(comm, arguments, tree);
     try {
-      io::require_same_mesh(solution, whole.mesh);
+      io::require_same_mesh(comm, solution, solved.mesh);
     } catch (const InputError& fault) {
       if (!arguments.mesh.empty()) throw;
       throw InputError(std::string(fault.what()) + ", or name the mesh that was solved on with --mesh");
     }
     if (solution.mesh) {
-      solution.mesh->mesh = std::move(whole.mesh);
-      whole = std::move(*solution.mesh);
+      solution.mesh->mesh = std::move(solved.mesh);
+      solved = std::move(*solution.mesh);
     }
   }
-  whole.solution = std::move(solution.solution);
-  return whole;
+  solved.solution = std::move(solution.solution);
+  return solved;
 }
 
 Statistics transfer_statistics(const adapt::RemeshedSolution& remeshed) {
@@ -119,11 +125,11 @@ Statistics transfer_statistics(const adapt::RemeshedSolution& remeshed) {
   return statistics;
 }
 
-/// Input of remesh; the whole mesh with its solution on the root only.
+/// Input of remesh.
 struct RemeshProblem {
   TreeRecord tree;
   CaseInput input;
-  io::LoadedMesh whole;                 ///< until it is distributed
+  io::LoadedMesh solved;                ///< in the order of its file
   std::vector<std::string> files;       ///< output files
   std::vector<std::string> part_files;  ///< and those of partitions, if requested
   io::PartRequest parts;
@@ -171,16 +177,17 @@ RemeshProblem load(const Communicator& comm, const RemeshArguments& arguments, W
     }
     io::require_possible_outputs(io::with_files_beside(problem.files));
     io::require_possible_outputs(problem.part_files);
-    if (comm.is_root()) problem.whole = solved_mesh(arguments, tree);
   });
+  problem.solved = solved_mesh(comm, arguments, problem.tree.attributes);
   return problem;
 }
 
-/// Distributes the solved mesh. *Collective.*
-adapt::SolvedMesh spread(const Communicator& comm, const RemeshArguments& arguments, RemeshProblem& problem) {
-  const io::LoadedMesh whole = std::exchange(problem.whole, {});
-  adapt::SolvedMesh solved =
-      adapt::spread_solved(comm, whole.mesh, whole.solution.value_or(Field{}), std::move(problem.tree));
+/// Returns the solved mesh in the order of the tree. *Collective.*
+adapt::SolvedMesh in_tree_order(const Communicator& comm, const RemeshArguments& arguments,
+                                RemeshProblem& problem) {
+  io::LoadedMesh loaded = std::exchange(problem.solved, {});
+  adapt::SolvedMesh solved = adapt::in_tree_order(comm, std::move(loaded.mesh),
+                                                  loaded.solution.value_or(Field{}), std::move(problem.tree));
   solved.file = arguments.solution;
   adapt::require_own_mesh(comm, solved, arguments.solution, arguments.tree);
   return solved;
@@ -248,7 +255,7 @@ void run_remesh(const CommandContext& context, const RemeshArguments& arguments)
   Warnings& warnings = context.record.noted;
   RemeshProblem problem = load(comm, arguments, warnings);
   times.begin("compare");
-  const adapt::SolvedMesh solved = spread(comm, arguments, problem);
+  const adapt::SolvedMesh solved = in_tree_order(comm, arguments, problem);
   times.end();
   problem.input.mesh->mesh.limit = mesh_limit(comm, arguments.max_cells);
   std::optional<adapt::RemeshedSolution> remeshed = morph(comm, arguments, problem, solved, warnings);

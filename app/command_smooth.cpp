@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <mpi.h>
 
 #include <algorithm>
 #include <iostream>
@@ -18,9 +17,9 @@
 #include "io/mesh_file.hpp"
 #include "io/model/fixed_nodes.hpp"
 #include "io/model/interface_nodes.hpp"
-#include "io/model/tidy_mesh.hpp"
 #include "mesher/base/counted.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/base/parallel/even_shares.hpp"
 #include "mesher/base/timer.hpp"
 #include "mesher/geometry/assemble/assemble.hpp"
 #include "mesher/mesh/box_over_ranks.hpp"
@@ -28,6 +27,7 @@
 #include "mesher/mesh/check/solver_statistics.hpp"
 #include "mesher/mesh/paired_nodes.hpp"
 #include "mesher/mesh/periodic_mesh.hpp"
+#include "mesher/mesh/reorder_mesh.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
 #include "smoother/keep_layers.hpp"
 #include "smoother/outline/outline_match.hpp"
@@ -43,27 +43,25 @@ struct SmoothArguments {
   std::vector<std::string> fix;  ///< names of boundaries, inner curves and blocks
 };
 
-/// Input on the root rank; on the others only the geometry.
+/// The mesh, in the order of its file, and the geometry.
 struct Loaded {
-  io::LoadedMesh whole;
-  MeshOrder order;
-  NodeFlags pinned;  ///< nodes_that_stay(), and fix_nodes()
+  io::LoadedMesh mesh;
+  NodeFlags pinned;  ///< of owned nodes: nodes_that_stay(), and fix_nodes(); empty if there are none
   std::optional<Geometry> geometry;
-  bool delaunay = false;  ///< on every rank; false if flips could cross inner curves
+  bool delaunay = false;  ///< false if flips could cross inner curves
 };
 
-/// Cells of layers are split by the shorter diagonals, which may not be Delaunay.
-bool is_delaunay_outside_layers(const io::LoadedMesh& loaded) {
-  const Communicator alone(MPI_COMM_SELF);
+/// Cells of layers are split by the shorter diagonals, which may not be Delaunay. *Collective.*
+bool is_delaunay_outside_layers(const Communicator& comm, const io::LoadedMesh& loaded) {
   const Mesh& mesh = loaded.mesh;
   return is_delaunay(
-      mesh, smoother::blocks_for_flips(alone, mesh, layer_places(alone, mesh), loaded.triangle_to_block));
+      comm, mesh, smoother::blocks_for_flips(comm, mesh, layer_places(comm, mesh), loaded.triangle_to_block));
 }
 
 constexpr double most_stretched = 20;  // longest over shortest edge
 
-/// Warns that layers of another program's mesh would be lost by smoothing.
-Warnings doubts_about_stretched(const Mesh& mesh, const std::string& path) {
+/// Warns that layers of another program's mesh would be lost by smoothing. *Collective.*
+Warnings doubts_about_stretched(const Communicator& comm, const Mesh& mesh, const std::string& path) {
   if (has_layers(mesh)) return {};
   std::int64_t stretched = 0;
   const auto look_at = [&](const auto& nodes) {
@@ -76,6 +74,7 @@ Warnings doubts_about_stretched(const Mesh& mesh, const std::string& path) {
     if (longest > most_stretched * shortest) ++stretched;
   };
   mesh.for_each_cell(look_at);
+  stretched = comm.sum(stretched);
   if (stretched == 0) return {};
   return {fmt::format(
       "{}: {} with an aspect ratio above {:g}; smoothing makes layers among them uniform, unless a "
@@ -87,74 +86,81 @@ void append(Warnings& warnings, const Warnings& more) {
   warnings.insert(warnings.end(), more.begin(), more.end());
 }
 
-/// Nodes of periodic pairs move with their partners, and stay where these cannot be joined.
-void mark_pairs_that_stay(io::LoadedMesh& loaded) {
-  if (loaded.mesh.pairs.empty() || join_pairs_if_possible(Communicator(MPI_COMM_SELF), loaded.mesh)) return;
+/// Nodes of periodic pairs move with their partners, and stay where these cannot be joined. *Collective.*
+void mark_pairs_that_stay(const Communicator& comm, io::LoadedMesh& loaded) {
+  if (loaded.mesh.pairs.empty() || join_pairs_if_possible(comm, loaded.mesh)) return;
   const std::vector<NodeId> nodes = nodes_on_sides(loaded.mesh);
   loaded.periodic_nodes.insert(loaded.periodic_nodes.end(), nodes.begin(), nodes.end());
 }
 
-/// The root reads the mesh, every rank the geometry (files are small compared with a mesh). *Collective.*
+/// Compares the mesh with the geometry; turns loops of this that are against the mesh. The root gets the
+/// boundaries. *Collective.*
+void match_geometry(const Communicator& comm, const std::string& path, Loaded& loaded, Warnings& warnings) {
+  if (!loaded.geometry) return;
+  const Mesh boundaries = gather_boundaries(comm, loaded.mesh.mesh);
+  std::vector<std::string> notes;
+  std::vector<char> turned;
+  comm.together([&] {
+    if (!comm.is_root()) return;
+    notes = smoother::require_match(*loaded.geometry, boundaries, path);
+    turned = smoother::loops_against(*loaded.geometry, boundaries);
+  });
+  append(warnings, broadcast_words(comm, notes));
+  comm.broadcast(turned);
+  loaded.geometry = smoother::with_loops_turned(*loaded.geometry, turned);
+}
+
+/// Every rank reads its share of the mesh, and the geometry (files are small compared with a mesh).
+/// *Collective.*
 Loaded load(const CommandContext& context, const SmoothArguments& arguments) {
+  const Communicator& comm = context.comm;
   Loaded loaded;
   Warnings& warnings = context.record.noted;
-  std::vector<char> turned;
-  context.comm.together([&] {
+  comm.together([&] {
     io::require_readable_suffix(arguments.input);
     io::require_writable_suffix(arguments.output);
     if (!arguments.geometry.empty()) loaded.geometry = io::read_outline(arguments.geometry, warnings);
-    if (!context.comm.is_root()) return;
-    io::require_possible_outputs({arguments.output});
-    loaded.whole = io::read_mesh(arguments.input);
-    io::tidy_mesh(loaded.whole, arguments.input);
-    require_sound_topology(loaded.whole, arguments.input);
-    append(warnings, loaded.whole.warnings);
-    if (loaded.geometry) {
-      append(warnings, smoother::require_match(*loaded.geometry, loaded.whole.mesh, arguments.geometry));
-      turned = smoother::loops_against(*loaded.geometry, loaded.whole.mesh);
-    }
-    mark_pairs_that_stay(loaded.whole);
-    loaded.order = space_filling_order(loaded.whole.mesh);
-    loaded.pinned = io::nodes_that_stay(loaded.whole);
-    if (arguments.sweeps > 0)
-      append(warnings, io::fix_nodes(loaded.whole, arguments.fix, arguments.input, loaded.pinned));
-    loaded.delaunay = loaded.whole.inner_curves.empty() && is_delaunay_outside_layers(loaded.whole);
-    append(warnings, doubts_about_stretched(loaded.whole.mesh, arguments.input));
-    if (loaded.whole.solution && arguments.sweeps > 0)
-      warnings.push_back(
-          arguments.input +
-          ": the solution keeps its values at the nodes, which move; it is that of the old mesh");
-    append(warnings, io::losses_in(loaded.whole, arguments.output));
+    if (comm.is_root()) io::require_possible_outputs({arguments.output});
   });
-  context.comm.broadcast(turned);
-  if (loaded.geometry) loaded.geometry = smoother::with_loops_turned(*loaded.geometry, turned);
-  loaded.delaunay = context.comm.any(loaded.delaunay);
+  io::LoadedMesh& mesh = loaded.mesh = io::read_mesh(comm, arguments.input);
+  std::vector<char> stay;
+  repair(comm, mesh, arguments.input, [&](const io::LoadedMesh& whole) {
+    require_sound_topology(whole, arguments.input);
+    const NodeFlags flags = io::nodes_that_stay(whole);
+    stay.assign(flags.begin(), flags.end());
+  });
+  loaded.pinned = NodeFlags(in_even_shares(comm, std::move(stay)));
+  append(warnings, mesh.warnings);
+  match_geometry(comm, arguments.geometry, loaded, warnings);
+  mark_pairs_that_stay(comm, mesh);
+  if (arguments.sweeps > 0)
+    append(warnings, io::fix_nodes(comm, mesh, arguments.fix, arguments.input, loaded.pinned));
+  loaded.delaunay = mesh.inner_curves.empty() && is_delaunay_outside_layers(comm, mesh);
+  append(warnings, doubts_about_stretched(comm, mesh.mesh, arguments.input));
+  if (mesh.solution && arguments.sweeps > 0)
+    warnings.push_back(
+        arguments.input +
+        ": the solution keeps its values at the nodes, which move; it is that of the old mesh");
+  append(warnings, io::losses_in(comm, mesh, arguments.output));
   return loaded;
 }
 
 smoother::SmoothOptions options_of(const Communicator& comm, const SmoothArguments& arguments,
-                                   const Loaded& loaded, const Mesh& part) {
+                                   const Loaded& loaded, const ReorderedMesh& reordered, const Mesh& part) {
   smoother::SmoothOptions options;
   options.sweeps = arguments.sweeps;
   options.method = *value_of(smoother::method_words, arguments.method);
   options.objective = *value_of(smoother::objective_words, arguments.objective);
-  options.pinned = NodeFlags(scatter_nodes(comm, loaded.pinned, loaded.order));
+  if (comm.any(!loaded.pinned.empty())) options.pinned = NodeFlags(reordered.of_nodes(loaded.pinned));
   options.geometry = loaded.geometry ? &*loaded.geometry : nullptr;
   if (loaded.delaunay) {
-    options.triangle_to_block = scatter_triangles(comm, loaded.whole.triangle_to_block, loaded.order);
+    options.triangle_to_block = reordered.of_triangles(loaded.mesh.triangle_to_block);
     options.delaunay = [centre = box_over_ranks(comm, part.points).centre()](Point p) {
       return tie_rank(centre, p);
     };
   }
   smoother::keep_layers(comm, part, options);
   return options;
-}
-
-/// Throws on all ranks if the mesh is not valid on the root. *Collective.*
-void require_valid_result(const Communicator& comm, const Loaded& loaded, const std::string& input) {
-  comm.together([&] {
-    if (comm.is_root()) require_valid(loaded.whole, input);
-  });
 }
 
 /// Warns if all quads were parallelograms, as node-centred solvers prefer, and some are not any more: this
@@ -173,23 +179,24 @@ void warn_of_skew_quads(const CommandContext& context, const std::string& output
 std::string smooth_and_write(const CommandContext& context, const SmoothArguments& arguments, Loaded& loaded,
                              StageTimes& times) {
   const Communicator& comm = context.comm;
-  Mesh part = scatter_mesh(comm, loaded.whole.mesh, loaded.order);
+  const ReorderedMesh reordered(comm, loaded.mesh.mesh, space_filling_order(comm, loaded.mesh.mesh));
+  Mesh part = reordered.mesh(loaded.mesh.mesh);
   const bool parallel =
       comm.any(!part.quads.empty()) && solver_statistics(comm, part).parallelogram_share() == 1;
-  smoother::SmoothOptions options = options_of(comm, arguments, loaded, part);
+  smoother::SmoothOptions options = options_of(comm, arguments, loaded, reordered, part);
   if (parallel) options = smoother::sparing_parallelograms(options);
   times.begin("report");
-  const ShapeReport before = report_shapes(comm, part, loaded.whole.mesh);
+  const ShapeReport before = report_shapes(comm, part);
   times.begin("smooth");
   const smoother::SmoothReport smoothed = smoother::smooth_mesh(comm, part, options);
   times.begin("check");
   if (parallel) warn_of_skew_quads(context, arguments.output, solver_statistics(comm, part));
-  gather_mesh(comm, part, loaded.order, loaded.whole.mesh);
-  require_valid_result(comm, loaded, arguments.input);
+  reordered.put_back(part, loaded.mesh.mesh);
+  require_valid(comm, loaded.mesh, arguments.input);
   times.begin("write");
-  io::write_mesh_of_root(comm, loaded.whole, arguments.output);
+  io::write_mesh_file(comm, loaded.mesh, arguments.output);
   times.begin("report");
-  const ShapeReport after = report_shapes(comm, part, loaded.whole.mesh);
+  const ShapeReport after = report_shapes(comm, part);
   times.end();
   const std::vector<StageRow> stages = stage_rows(comm, times.stages());
   if (!comm.is_root()) return {};
@@ -211,8 +218,8 @@ void run_smooth(const CommandContext& context, const SmoothArguments& arguments)
   Loaded loaded = load(context, arguments);
   std::string text;
   if (arguments.sweeps == 0) {
-    require_valid_result(context.comm, loaded, arguments.input);
-    io::write_mesh_of_root(context.comm, loaded.whole, arguments.output);
+    require_valid(context.comm, loaded.mesh, arguments.input);
+    io::write_mesh_file(context.comm, loaded.mesh, arguments.output);
   } else {
     text = smooth_and_write(context, arguments, loaded, times);
   }

@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <mpi.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <utility>
 
 #include "adapt/loop/record.hpp"
 #include "app/command.hpp"
@@ -22,7 +22,7 @@
 #include "mesher/base/error.hpp"
 #include "mesher/base/log.hpp"
 #include "mesher/base/timer.hpp"
-#include "mesher/mesh/scatter_mesh.hpp"
+#include "mesher/mesh/reorder_mesh.hpp"
 #include "mesher/mesh/variable_names.hpp"
 #include "quadloop/case/settings.hpp"
 
@@ -35,11 +35,10 @@ struct SolveArguments {
   std::vector<std::string> assignments;
 };
 
-/// The settings and, on the root rank only, the mesh with the initial state.
+/// The settings, and the mesh, in the order of its file, with the initial state.
 struct SolveProblem {
   Settings settings;
-  io::LoadedMesh whole;
-  MeshOrder order;
+  io::LoadedMesh loaded;
   Field start;  ///< without variables: the initial state follows from the case
 };
 
@@ -50,10 +49,11 @@ void require_outputs(const std::string& output) {
                      io::suffixes_for({io::Content::mesh, io::Content::solution}) + " file");
 }
 
-/// Returns the initial state if the mesh file has density, velocity and pressure.
-Field start_of(const io::LoadedMesh& whole, const std::string& path, Warnings& warnings) {
-  if (!whole.solution || whole.solution->names.empty()) return {};
-  const std::vector<std::string>& names = whole.solution->names;
+/// Returns the initial state if the mesh file has density, velocity and pressure. Throws InputError for
+/// values that no flow has.
+Field start_of(const io::LoadedMesh& loaded, const std::string& path, Warnings& warnings) {
+  if (!loaded.solution || loaded.solution->names.empty()) return {};
+  const std::vector<std::string>& names = loaded.solution->names;
   std::vector<std::string> wanted(flow::euler_names.begin(), flow::euler_names.end());
   for (const std::string& name : wanted) {
     if (variables_like(names, name).size() == 1) continue;
@@ -65,19 +65,19 @@ Field start_of(const io::LoadedMesh& whole, const std::string& path, Warnings& w
   for (const char* const name : flow::at_end_names) {
     if (std::ranges::find(names, name) != names.end()) wanted.emplace_back(name);
   }
-  Field start = selected(*whole.solution, wanted, path);
-  for (std::int32_t node = 0; node < whole.mesh.owned_nodes; ++node) {
+  Field start = selected(*loaded.solution, wanted, path);
+  for (std::int32_t node = 0; node < loaded.mesh.owned_nodes; ++node) {
     const auto row = start.row(NodeId{node});
     if (row[0] > 0 && row[3] > 0) continue;
     throw InputError(
         fmt::format("{}: density {} and pressure {} of node {} in its solution must be above 0; remove the "
                     "solution to start from the free stream",
-                    path, row[0], row[3], node + 1));
+                    path, row[0], row[3], loaded.mesh.first_node + node + 1));
   }
   return start;
 }
 
-/// Every rank reads the case, the root the mesh. *Collective.*
+/// Every rank reads the case, and its share of the mesh. *Collective.*
 SolveProblem load(const CommandContext& context, const SolveArguments& arguments) {
   SolveProblem problem;
   context.comm.together([&] {
@@ -89,13 +89,13 @@ SolveProblem load(const CommandContext& context, const SolveArguments& arguments
                        ": 'solver.kind' is not 'euler', but 'quadloop solve' runs the built-in solver alone; "
                        "set kind = \"euler\"");
     }
-    if (!context.comm.is_root()) return;
-    io::require_possible_outputs({arguments.output});
-    problem.whole = io::read_mesh(arguments.input);
-    context.record.noted = problem.whole.warnings;
-    problem.order = order_for_parts(problem.whole.mesh);
-    problem.start = start_of(problem.whole, arguments.input, context.record.noted);
+    if (context.comm.is_root()) io::require_possible_outputs({arguments.output});
   });
+  problem.loaded = io::read_mesh(context.comm, arguments.input);
+  context.record.noted = problem.loaded.warnings;
+  context.comm.together(
+      [&] { problem.start = start_of(problem.loaded, arguments.input, context.record.noted); });
+  problem.loaded.solution.reset();
   return problem;
 }
 
@@ -115,9 +115,9 @@ void write_text(io::OutputSet& outputs, const std::string& path, const std::stri
   file.close();
 }
 
-/// Adds the solution to the whole mesh on the root and writes it, with the tables. *Collective.*
-void write(const CommandContext& context, SolveProblem& problem, const Mesh& part,
-           const flow::EulerResult& result, const std::string& path) {
+/// Adds the solution to the mesh, in the order of its file, and writes it, with the tables. *Collective.*
+void write(const CommandContext& context, SolveProblem& problem, const ReorderedMesh& reordered,
+           const Mesh& part, const flow::EulerResult& result, const std::string& path) {
   const Communicator& comm = context.comm;
   const flow::EulerOptions& options = problem.settings.solver.euler;
   const flow::FreeStream stream = flow::free_stream_of(options);
@@ -126,30 +126,25 @@ void write(const CommandContext& context, SolveProblem& problem, const Mesh& par
   const std::string walls = flow::wall_table(comm, part, result.flow, stream, wall_names);
   const Field flow =
       flow::with_quantities(flow::flow_with_constants(result, options), problem.settings.fields, stream);
-  Field solution = gather_field(comm, flow, part, problem.order);
-  comm.together([&] {
-    if (!comm.is_root()) return;
-    if (!io::format_of(path)->holds(io::Content::constants)) solution.constants.clear();
-    problem.whole.solution = std::move(solution);
-    for (std::string& loss : io::losses_in(problem.whole, path))
-      context.record.noted.push_back(std::move(loss));
-    const Communicator alone(MPI_COMM_SELF);
-    io::OutputSet outputs(alone);
-    io::write_mesh(outputs, problem.whole, path);
-    write_text(outputs, tables_beside(path).walls, walls);
-    write_text(outputs, tables_beside(path).history, flow::history_table(result.history));
-    outputs.commit();
-  });
+  Field& solution = problem.loaded.solution.emplace(reordered.field_back(flow));
+  if (!io::format_of(path)->holds(io::Content::constants)) solution.constants.clear();
+  for (std::string& loss : io::losses_in(comm, problem.loaded, path))
+    context.record.noted.push_back(std::move(loss));
+  io::OutputSet outputs(comm);
+  io::write_mesh(outputs, problem.loaded, path);
+  write_text(outputs, tables_beside(path).walls, walls);
+  write_text(outputs, tables_beside(path).history, flow::history_table(result.history));
+  outputs.commit();
 }
 
-flow::EulerResult solve(const Communicator& comm, const SolveProblem& problem, const Mesh& part) {
+flow::EulerResult solve(const Communicator& comm, const SolveProblem& problem, const Mesh& part,
+                        const Field& start) {
   flow::EulerOptions options = euler_options(problem.settings.solver, problem.settings.outline.rules, part);
   const bool in_time = options.time == flow::EulerOptions::Time::accurate;
   options.progress = [&comm, in_time](const flow::EulerProgress& progress) {
     if (comm.is_root()) log::information(flow::line_of(progress, in_time));
   };
-  return flow::solve_euler(comm, part, options, scatter_field(comm, problem.start, part, problem.order),
-                           flow::estimate_goals(options));
+  return flow::solve_euler(comm, part, options, start, flow::estimate_goals(options));
 }
 
 Statistics result_statistics(std::int64_t nodes, const flow::EulerResult& result,
@@ -189,11 +184,13 @@ void run_solve(const CommandContext& context, const SolveArguments& arguments) {
   StageTimes times;
   times.begin("read");
   SolveProblem problem = load(context, arguments);
-  const Mesh part = scatter_mesh(comm, problem.whole.mesh, problem.order);
+  const ReorderedMesh reordered(comm, problem.loaded.mesh, order_for_parts(comm, problem.loaded.mesh));
+  const Mesh part = reordered.mesh(problem.loaded.mesh);
+  const Field start = reordered.field(std::exchange(problem.start, {}));
   times.begin("solve");
-  const flow::EulerResult result = solve(comm, problem, part);
+  const flow::EulerResult result = solve(comm, problem, part, start);
   times.begin("write");
-  write(context, problem, part, result, arguments.output);
+  write(context, problem, reordered, part, result, arguments.output);
   times.end();
   const std::vector<StageRow> stages = stage_rows(comm, times.stages());
   const std::int64_t nodes = comm.sum(part.owned_nodes);

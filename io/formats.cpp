@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <iterator>
 #include <system_error>
+#include <variant>
 
 #include "io/cgns/cgns_file.hpp"
 #include "io/cgns/cgns_names.hpp"
@@ -15,6 +16,7 @@
 #include "io/fluent/fluent_zones.hpp"
 #include "io/foam/foam_file.hpp"
 #include "io/medit/medit_file.hpp"
+#include "io/model/distribute.hpp"
 #include "io/msh/msh_file.hpp"
 #include "io/native/binary_file.hpp"
 #include "io/native/native_file.hpp"
@@ -29,6 +31,7 @@
 #include "io/vtu/vtu_file.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/suffix.hpp"
+#include "mesher/mesh/paired_nodes.hpp"
 #include "mesher/mesh/variable_names.hpp"
 
 namespace quadloop::io {
@@ -39,6 +42,27 @@ std::vector<std::string> msh_group_names(const std::vector<std::string>& boundar
   std::vector<std::string> names = boundaries;
   std::ranges::transform(boundaries, names.begin(), msh_group_name);
   return names;
+}
+
+/// Removes the nodes of pairs from those on other periodic sides.
+void separate_pairs(MeshOfFile& whole) {
+  LoadedMesh* const plane = std::get_if<LoadedMesh>(&whole);
+  if (plane == nullptr) return;
+  const std::vector<NodeId> of_pairs = nodes_on_sides(plane->mesh);
+  std::erase_if(plane->periodic_nodes,
+                [&](NodeId node) { return std::ranges::binary_search(of_pairs, node); });
+}
+
+/// Reads a format that the root reads alone, whole.
+template <MeshOfFile (*read)(const std::string&)>
+MeshOfFile read_at_root(const Communicator& comm, const std::string& path) {
+  MeshOfFile whole;
+  comm.together([&] {
+    if (!comm.is_root()) return;
+    whole = read(path);
+    separate_pairs(whole);
+  });
+  return distributed(comm, std::move(whole));
 }
 
 /// Gmsh and Fluent files have the same suffix; a pipe is assumed to be Gmsh.
@@ -58,7 +82,7 @@ FileFormat msh_row(const std::string& name, FileFormat::BytesOfCell bytes) {
           .places = {Content::mesh, Content::blocks, Content::block_names, Content::pairs, Content::nodes,
                      Content::mesh3d},
           .bytes_of_cell = bytes,
-          .read = read_msh_or_fluent,
+          .read = read_at_root<read_msh_or_fluent>,
           .write = [](OutputSet& outputs, const MeshStream& mesh,
                       const std::string& path) { write_msh(outputs, mesh, path, version); },
           .boundary_names = msh_group_names,
@@ -75,7 +99,7 @@ FileFormat ugrid_row(const std::string& name) {
   return {.name = name,
           .program = "AFLR3",
           .places = {Content::blocks, Content::conditions, Content::mesh3d},
-          .read = read_ugrid<order>,
+          .read = read_at_root<read_ugrid<order>>,
           .write = write_ugrid<order>,
           .boundary_names = mapbc_names,
           .condition_in_file = mapbc_condition_in_file,
@@ -83,11 +107,14 @@ FileFormat ugrid_row(const std::string& name) {
 }
 
 /// Medit's text format has the suffix of the native one; a pipe is assumed to be native.
-MeshOfFile read_native_or_medit(const std::string& path) {
-  std::error_code failure;
-  const bool is_file = std::filesystem::is_regular_file(path, failure);
-  if (is_file && is_medit(path)) return read_medit(path);
-  return read_native(path);
+MeshOfFile read_native_or_medit(const Communicator& comm, const std::string& path) {
+  bool medit = false;
+  comm.together([&] {
+    std::error_code failure;
+    medit = comm.is_root() && std::filesystem::is_regular_file(path, failure) && is_medit(path);
+  });
+  if (comm.any(medit)) return read_at_root<read_medit>(comm, path);
+  return read_native(comm, path);
 }
 
 /// Written only if requested by name.
@@ -96,7 +123,7 @@ FileFormat medit_row() {
           .program = "MMG, FreeFEM",
           .places = {Content::mesh, Content::blocks},
           .bytes_of_cell = {56, 36},
-          .read = read_medit,
+          .read = read_at_root<read_medit>,
           .write = write_medit,
           .boundary_names = medit_boundary_names,
           .stores_lines = true};
@@ -117,7 +144,9 @@ std::vector<FileFormat> native_rows() {
            .places = {mesh, solution, constants, blocks, block_names, conditions, layers, pairs, nodes},
            .bytes_of_cell = {31, 20},
            .bytes_of_value = 8,
-           .read = [](const std::string& path) -> MeshOfFile { return read_binary(path); },
+           .read = [](const Communicator& comm, const std::string& path) -> MeshOfFile {
+             return read_binary(comm, path);
+           },
            .write = write_binary,
            .stores_lines = true}};
 }
@@ -129,7 +158,7 @@ FileFormat cgns_row() {
           .by_default = true,
           .bytes_of_cell = {35, 22},
           .bytes_of_value = 8,
-          .read = read_cgns,
+          .read = read_at_root<read_cgns>,
           .write = [](OutputSet& outputs, const MeshStream& mesh,
                       const std::string& path) { write_cgns(outputs, mesh, path); },
           .boundary_names = cgns_boundary_names,
@@ -147,7 +176,7 @@ std::vector<FileFormat> vtk_rows() {
            .bytes_of_cell = {69, 50},
            .bytes_of_value = 8,
            .without_values = "let the solver save values at points (in ParaView: Cell Data to Point Data)",
-           .read = read_vtu,
+           .read = read_at_root<read_vtu>,
            .write = write_vtu,
            .stores_lines = true},
           {.name = "pvtu",
@@ -156,7 +185,7 @@ std::vector<FileFormat> vtk_rows() {
            .bytes_of_cell = {69, 50},
            .bytes_of_value = 8,
            .without_values = "let the solver save values at points (in ParaView: Cell Data to Point Data)",
-           .read = read_pvtu,
+           .read = read_at_root<read_pvtu>,
            .write = write_pvtu,
            .file_beside = pvtu_piece_path,
            .stores_lines = true},
@@ -174,7 +203,7 @@ FileFormat su2_row() {
   return {.name = "su2",
           .places = {Content::mesh, Content::blocks, Content::block_names, Content::pairs, Content::mesh3d},
           .bytes_of_cell = {65, 44},
-          .read = read_su2,
+          .read = read_at_root<read_su2>,
           .write = write_su2,
           .boundary_names = su2_marker_names,
           .single_block_name = false,
@@ -187,7 +216,7 @@ FileFormat fluent_row() {
           .program = "Fluent",
           .places = {mesh, blocks, block_names, conditions, mesh3d},
           .bytes_of_cell = {76, 49},
-          .read = read_fluent,
+          .read = read_at_root<read_fluent>,
           .write = write_fluent,
           .boundary_names = fluent_zone_names,
           .condition_in_file =
@@ -201,7 +230,7 @@ FileFormat plane_ugrid_row() {
           .program = "AFLR2",
           .places = {Content::mesh, Content::blocks, Content::conditions},
           .bytes_of_cell = {56, 36},
-          .read = read_ugrid_plane,
+          .read = read_at_root<read_ugrid_plane>,
           .write = write_ugrid_plane,
           .boundary_names = mapbc_names,
           .condition_in_file = mapbc_condition_in_file,
@@ -215,7 +244,7 @@ FileFormat foam_row() {
           .program = "OpenFOAM",
           .places = {mesh, blocks, block_names, conditions, pairs, mesh3d},
           .bytes_of_cell = {215, 151},
-          .read = read_foam,
+          .read = read_at_root<read_foam>,
           .write = write_foam,
           .boundary_names = foam_patch_names,
           .unknown_boundary = "a plain patch, no wall",

@@ -42,8 +42,9 @@ struct FileFormat {
   /// What the user should do if a mesh has no solution.
   std::string without_values = "let the solver append its variables, a row of values for each node";
 
-  /// On the calling rank only; null: no mesh is read from this format. Throws InputError.
-  MeshOfFile (*read)(const std::string& path) = nullptr;
+  /// Reads a mesh: a plane one is distributed, in the order of the file, a 3D mesh is whole on the root.
+  /// Null: no mesh is read from this format. Throws InputError on all ranks. *Collective.*
+  MeshOfFile (*read)(const Communicator& comm, const std::string& path) = nullptr;
   /// Writes a mesh of a supported dimension. Throws OutputError. *Collective.*
   void (*write)(OutputSet& outputs, const MeshStream& mesh, const std::string& path) = nullptr;
   /// Returns the boundaries' names in the file; null: unchanged.

@@ -12,6 +12,7 @@
 #include <variant>
 
 #include "io/formats.hpp"
+#include "io/model/distribute.hpp"
 #include "io/model/orient_mesh3d.hpp"
 #include "io/model/repeated_rows.hpp"
 #include "io/parts/part_index.hpp"
@@ -21,9 +22,8 @@
 #include "io/text/clean_names.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/suffix.hpp"
+#include "mesher/mesh/cells/edge_cells.hpp"
 #include "mesher/mesh/layers/layer_nodes.hpp"
-#include "mesher/mesh/paired_nodes.hpp"
-#include "mesher/mesh/topology.hpp"
 
 namespace quadloop::io {
 
@@ -61,9 +61,6 @@ void finish_reading(LoadedMesh& loaded, const std::string& path) {
   for (StripLayers& strip : loaded.mesh.strips) names.push_back(&strip.name);
   for (NamedNode& node : loaded.mesh.named_nodes) names.push_back(&node.name);
   for (std::string& block : loaded.block_names) names.push_back(&block);
-  const std::vector<NodeId> of_pairs = nodes_on_sides(loaded.mesh);
-  std::erase_if(loaded.periodic_nodes,
-                [&](NodeId node) { return std::ranges::binary_search(of_pairs, node); });
   clean_up_names(std::move(names), loaded.solution, path, loaded.warnings);
   if (loaded.blocks > 1) loaded.mesh.blocks = plane_blocks(loaded);
 }
@@ -116,17 +113,30 @@ MeshContent content_of(const Mesh& mesh, const Field* solution) {
   return content;
 }
 
-bool is_between_cells(const EdgeTable& table, const std::array<NodeId, 2>& edge) {
-  return table.cell_left_of(edge[0], edge[1]) >= 0 && table.cell_left_of(edge[1], edge[0]) >= 0;
+/// Returns, for each boundary, for each of its edges whether it has a cell on its right, too. *Collective.*
+std::vector<std::vector<char>> edges_between_cells(const Communicator& comm, const Mesh& mesh) {
+  std::vector<std::vector<char>> between;
+  const std::vector<std::int64_t> right = cells_right_of_boundaries(comm, mesh);
+  auto cell = right.begin();
+  for (const BoundaryEdges& boundary : mesh.boundaries) {
+    std::vector<char>& flags = between.emplace_back();
+    for (std::size_t i = 0; i < boundary.edges.size(); ++i) flags.push_back(*cell++ >= 0 ? 1 : 0);
+  }
+  return between;
 }
 
-std::vector<std::string> names_of_interfaces(const LoadedMesh& whole) {
-  if (whole.blocks < 2) return {};
-  const EdgeTable table(whole.mesh);
+/// *Collective.*
+std::vector<std::string> names_of_interfaces(const Communicator& comm, const LoadedMesh& mesh) {
+  if (mesh.blocks < 2) return {};
+  std::vector<std::int64_t> own;  // numbers of boundaries
+  for (std::int64_t number = 0; const std::vector<char>& flags : edges_between_cells(comm, mesh.mesh)) {
+    if (std::ranges::count(flags, 1) > 0) own.push_back(number);
+    ++number;
+  }
+  const std::vector<std::int64_t> all = comm.all_gather_values(std::span<const std::int64_t>(own));
   std::vector<std::string> names;
-  for (const BoundaryEdges& boundary : whole.mesh.boundaries) {
-    if (std::ranges::any_of(boundary.edges, [&](const auto& edge) { return is_between_cells(table, edge); }))
-      names.push_back(boundary.name);
+  for (std::int64_t number = 0; const BoundaryEdges& boundary : mesh.mesh.boundaries) {
+    if (std::ranges::count(all, number++) > 0) names.push_back(boundary.name);
   }
   return names;
 }
@@ -255,6 +265,16 @@ std::vector<std::string> losses_of(const MeshContent& content, const FileFormat&
   return losses;
 }
 
+/// Returns the mesh with all edges between two blocks in named boundaries; it is gathered for that.
+/// *Collective.*
+LoadedMesh with_interfaces(const Communicator& comm, const LoadedMesh& mesh) {
+  LoadedMesh whole = gathered(comm, mesh);
+  comm.together([&] {
+    if (comm.is_root()) name_interfaces(whole);
+  });
+  return distributed(comm, std::move(whole));
+}
+
 }  // namespace
 
 void require_readable_suffix(const std::string& path) {
@@ -276,16 +296,44 @@ void require_readable_suffix(const std::string& path) {
                    read_suffixes_for({Content::mesh}) + " file");
 }
 
-MeshOfFile read_mesh_file(const std::string& path) {
-  require_kind_of_suffix(path);
+MeshOfFile read_mesh_file(const Communicator& comm, const std::string& path) {
   const FileFormat* const format = format_of(path);
-  if (format == nullptr || format->read == nullptr) require_readable_suffix(path);
-  MeshOfFile mesh = is_part_index(path) ? MeshOfFile(read_parts(path)) : format->read(path);
-  std::visit([&](auto& read) { finish_reading(read, path); }, mesh);
+  comm.together([&] {
+    if (!comm.is_root()) return;
+    require_kind_of_suffix(path);
+    if (format == nullptr || format->read == nullptr) require_readable_suffix(path);
+  });
+  MeshOfFile mesh;
+  if (is_part_index(path)) {
+    comm.together([&] {
+      if (comm.is_root()) mesh = read_parts(path);
+    });
+    mesh = distributed(comm, std::move(mesh));
+  } else {
+    mesh = format->read(comm, path);
+  }
+  comm.together([&] { std::visit([&](auto& read) { finish_reading(read, path); }, mesh); });
   return mesh;
 }
 
-LoadedMesh read_mesh(const std::string& path) { return plane_of(read_mesh_file(path), path); }
+LoadedMesh plane_of(const Communicator& comm, MeshOfFile mesh, const std::string& path) {
+  if (std::holds_alternative<LoadedMesh>(mesh)) return std::get<LoadedMesh>(std::move(mesh));
+  MeshOfFile plane;
+  comm.together([&] {
+    if (comm.is_root()) plane = plane_of(std::move(mesh), path);
+  });
+  return std::get<LoadedMesh>(distributed(comm, std::move(plane)));
+}
+
+LoadedMesh read_mesh(const Communicator& comm, const std::string& path) {
+  return plane_of(comm, read_mesh_file(comm, path), path);
+}
+
+MeshOfFile read_mesh_file(const std::string& path) {
+  return read_mesh_file(Communicator(MPI_COMM_SELF), path);
+}
+
+LoadedMesh read_mesh(const std::string& path) { return read_mesh(Communicator(MPI_COMM_SELF), path); }
 
 void require_writable_suffix(const std::string& path) {
   if (mesh_format(path) != nullptr) return;
@@ -296,31 +344,24 @@ void require_writable_suffix(const std::string& path) {
                    suffixes_for({Content::mesh}) + " file");
 }
 
-void write_mesh(OutputSet& outputs, const LoadedMesh& whole, const std::string& path,
+void write_mesh(OutputSet& outputs, const LoadedMesh& mesh, const std::string& path,
                 const std::string& format) {
+  const Communicator& comm = outputs.communicator();
   const FileFormat* row = mesh_format(path, format);
   QUADLOOP_REQUIRE(row != nullptr, "a mesh is written in a format that holds none");
-  const bool has_zones = row->has_zones && whole.blocks > 1,
-             has_lines = row->stores_lines && !whole.inner_curves.empty();
-  if (!has_zones && !has_lines) return row->write(outputs, MeshStream(outputs.communicator(), whole), path);
-  LoadedMesh written = whole;
-  if (has_zones) name_interfaces(written);
+  const bool has_zones = row->has_zones && mesh.blocks > 1,
+             has_lines = row->stores_lines && !mesh.inner_curves.empty();
+  if (!has_zones && !has_lines) return row->write(outputs, MeshStream(comm, mesh), path);
+  LoadedMesh written = has_zones ? with_interfaces(comm, mesh) : mesh;
   if (has_lines) list_inner_curves(written);
-  row->write(
-      outputs,
-      MeshStream(outputs.communicator(), written, has_lines ? EdgeChoice::all : EdgeChoice::boundaries),
-      path);
+  row->write(outputs, MeshStream(comm, written, has_lines ? EdgeChoice::all : EdgeChoice::boundaries), path);
 }
 
-void write_mesh_of_root(const Communicator& comm, const LoadedMesh& whole, const std::string& path,
-                        const std::string& format) {
-  comm.together([&] {
-    if (!comm.is_root()) return;
-    const Communicator alone(MPI_COMM_SELF);
-    OutputSet outputs(alone);
-    write_mesh(outputs, whole, path, format);
-    outputs.commit();
-  });
+void write_mesh_file(const Communicator& comm, const LoadedMesh& mesh, const std::string& path,
+                     const std::string& format) {
+  OutputSet outputs(comm);
+  write_mesh(outputs, mesh, path, format);
+  outputs.commit();
 }
 
 void write_mesh(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Field* solution,
@@ -352,15 +393,15 @@ std::vector<std::string> changes_in(const Mesh& mesh, const std::string& path, c
   return changes;
 }
 
-std::vector<std::string> losses_in(const LoadedMesh& whole, const std::string& path,
+std::vector<std::string> losses_in(const Communicator& comm, const LoadedMesh& mesh, const std::string& path,
                                    const std::string& format) {
   const FileFormat* row = mesh_format(path, format);
   if (row == nullptr) return {};
-  MeshContent content = content_of(whole.mesh, whole.solution ? &*whole.solution : nullptr);
-  content.blocks = whole.blocks;
-  content.block_names = whole.block_names;
-  content.interfaces = names_of_interfaces(whole);
-  for (const BoundaryEdges& curve : whole.inner_curves) content.lines.push_back(curve.name);
+  MeshContent content = content_of(mesh.mesh, mesh.solution ? &*mesh.solution : nullptr);
+  content.blocks = mesh.blocks;
+  content.block_names = mesh.block_names;
+  content.interfaces = names_of_interfaces(comm, mesh);
+  for (const BoundaryEdges& curve : mesh.inner_curves) content.lines.push_back(curve.name);
   return losses_of(content, *row, path);
 }
 
@@ -422,19 +463,27 @@ void write_mesh(OutputSet& outputs, const FileMesh& mesh, const std::string& pat
   write_mesh3d(outputs, MeshStream(outputs.communicator(), mesh), path, format);
 }
 
-std::vector<std::string> drop_interfaces(LoadedMesh& whole, const std::string& path) {
-  if (whole.blocks < 2) return {};
+std::vector<std::string> drop_interfaces(const Communicator& comm, LoadedMesh& mesh,
+                                         const std::string& path) {
+  if (mesh.blocks < 2) return {};
   const FileFormat* format = mesh3d_format(path);
   if (format != nullptr && format->has_zones) {
-    name_interfaces(whole);
+    mesh = with_interfaces(comm, mesh);
     return {};
   }
-  const EdgeTable table(whole.mesh);
-  std::size_t dropped = 0;
-  for (BoundaryEdges& boundary : whole.mesh.boundaries) {
-    dropped += std::erase_if(boundary.edges, [&](const auto& edge) { return is_between_cells(table, edge); });
+  const std::vector<std::vector<char>> between = edges_between_cells(comm, mesh.mesh);
+  std::int64_t dropped = 0;
+  std::vector<BoundaryEdges> kept;
+  for (std::size_t b = 0; b < between.size(); ++b) {
+    BoundaryEdges& boundary = mesh.mesh.boundaries[b];
+    std::size_t edge = 0;
+    dropped += std::ssize(boundary.edges);
+    std::erase_if(boundary.edges, [&](const auto&) { return between[b][edge++] != 0; });
+    dropped -= std::ssize(boundary.edges);
+    if (comm.any(!boundary.edges.empty())) kept.push_back(std::move(boundary));
   }
-  std::erase_if(whole.mesh.boundaries, [](const BoundaryEdges& boundary) { return boundary.edges.empty(); });
+  mesh.mesh.boundaries = std::move(kept);
+  dropped = comm.sum(dropped);
   if (dropped == 0) return {};
   return {fmt::format("{}: the {} edges between two blocks are no patch", path, dropped)};
 }

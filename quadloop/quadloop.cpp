@@ -14,7 +14,8 @@
 #include "io/tree/tree_file.hpp"
 #include "mesher/mesh/check/delaunay_check.hpp"
 #include "mesher/mesh/check/validate.hpp"
-#include "mesher/mesh/scatter_blocks.hpp"
+#include "mesher/mesh/reorder_mesh.hpp"
+#include "mesher/mesh/scatter_mesh.hpp"
 #include "quadloop/case_parts.hpp"
 #include "quadloop/require_input.hpp"
 #include "smoother/keep_layers.hpp"
@@ -155,19 +156,12 @@ std::vector<std::string> check(const Communicator& comm, const Mesh& mesh) {
 }
 
 MeshFile read(const Communicator& comm, const std::string& path) {
-  io::LoadedMesh loaded;
-  MeshOrder order;
-  comm.together([&] {
-    if (!comm.is_root()) return;
-    loaded = io::read_mesh(path);
-    io::list_inner_curves(loaded);
-    order = order_for_parts(loaded.mesh);
-  });
-  MeshFile file;
-  file.mesh = scatter_mesh(comm, loaded.mesh, order);
-  file.mesh.blocks = scatter_blocks(comm, loaded.mesh.blocks, order);
-  file.field = scatter_field(comm, loaded.solution.value_or(Field{}), file.mesh, order);
-  file.warnings = broadcast_words(comm, loaded.warnings);
+  io::LoadedMesh loaded = io::read_mesh(comm, path);
+  io::list_inner_curves(loaded);
+  const ReorderedMesh reordered(comm, loaded.mesh, order_for_parts(comm, loaded.mesh));
+  MeshFile file{reordered.mesh(loaded.mesh), reordered.field(loaded.solution.value_or(Field{})),
+                loaded.warnings};
+  file.mesh.blocks = reordered.blocks(loaded.mesh.blocks);
   return file;
 }
 
@@ -192,12 +186,9 @@ void write_solved(const Communicator& comm, const SolvedMesh& solved, const std:
 
 SolvedMesh read_solved(const Communicator& comm, const Case& of, const std::string& stem) {
   const std::string mesh = stem + ".mesh", tree = stem + io::tree_suffix;
-  io::LoadedMesh whole;
-  comm.together([&] {
-    if (comm.is_root()) whole = io::read_mesh(mesh);
-  });
-  SolvedMesh solved =
-      adapt::spread_solved(comm, whole.mesh, whole.solution.value_or(Field{}), io::read_tree(comm, tree));
+  io::LoadedMesh loaded = io::read_mesh(comm, mesh);
+  SolvedMesh solved = adapt::in_tree_order(comm, std::move(loaded.mesh), loaded.solution.value_or(Field{}),
+                                           io::read_tree(comm, tree));
   solved.file = mesh;
   const TreeAttributes& made = solved.tree.attributes;
   comm.together([&] {

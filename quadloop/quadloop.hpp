@@ -308,10 +308,10 @@ struct MeshFile {
   std::vector<std::string> warnings;
 };
 
-/// Reads a mesh and its nodal field; the suffix selects the format: .mesh, .cgns, .vtu, .su2, .msh. The root
-/// rank reads the whole file. CGNS files are read by a separate program, quadloop-reader (see
-/// docs/how-to/library.md), which must be installed. Throws InputError with the file and, for text formats,
-/// the line.
+/// Reads a mesh and its nodal field; the suffix selects the format: .mesh, .cgns, .vtu, .su2, .msh. All ranks
+/// read .mesh and .qmesh files, each its share; the root reads those of other formats whole. CGNS files are
+/// read by a separate program, quadloop-reader (see docs/how-to/library.md), which must be installed. Throws
+/// InputError with the file and, for text formats, the line.
 MeshFile read(const Communicator& comm, const std::string& path);
 
 /// Writes a mesh and, if the format supports it, the field; the suffix selects the format. The file is

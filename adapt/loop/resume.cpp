@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <utility>
 
 #include "adapt/remesh/own_mesh.hpp"
 #include "adapt/remesh/remesh.hpp"
@@ -48,24 +49,20 @@ RecordedCase record_in(const std::string& folder) {
                    "; resume with the same settings, or use another folder");
 }
 
-/// Checks a further file of the mesh, for viewers.
-void require_copy(const std::string& path, std::int64_t nodes) {
-  const io::LoadedMesh loaded = io::read_mesh(path);
-  if (std::ssize(loaded.mesh.points) == nodes && loaded.solution) return;
+/// Checks a further file of the mesh, for viewers. *Collective.*
+void require_copy(const Communicator& comm, const std::string& path, std::int64_t nodes) {
+  const io::LoadedMesh loaded = io::read_mesh(comm, path);
+  if (comm.sum(loaded.mesh.owned_nodes) == nodes && loaded.solution) return;
   throw InputError(path + ": does not hold the mesh and the solution of the files beside it");
 }
 
 /// Reads a cycle. Throws InputError if a file is incomplete. *Collective.*
 SolvedMesh read_cycle(const Communicator& comm, const CyclePaths& paths) {
   const std::string path = paths.native_mesh();
-  io::LoadedMesh whole;
-  comm.together([&] {
-    if (!comm.is_root()) return;
-    whole = io::read_mesh(path);
-    if (!whole.solution) throw InputError(path + ": contains no solution; a complete cycle has one");
-  });
-  SolvedMesh solved =
-      spread_solved(comm, whole.mesh, whole.solution.value_or(Field{}), io::read_tree(comm, paths.tree()));
+  io::LoadedMesh loaded = io::read_mesh(comm, path);
+  if (!loaded.solution) throw InputError(path + ": contains no solution; a complete cycle has one");
+  SolvedMesh solved = in_tree_order(comm, std::move(loaded.mesh), std::move(*loaded.solution),
+                                    io::read_tree(comm, paths.tree()));
   solved.file = path;
   return solved;
 }
@@ -109,13 +106,10 @@ SolvedMesh read_earlier_cycle(const Communicator& comm, const std::string& folde
     SolvedMesh solved = read_cycle(comm, paths);
     require_untouched_mesh(comm, solved, paths.native_mesh(), paths.tree());
     require_untouched_solution(comm, solved, paths, folder);
-    comm.together([&] {
-      if (!comm.is_root()) return;
-      for (const std::string& format : io::default_formats()) {
-        if (format != io::native_format().name)
-          require_copy(paths.mesh(format), solved.tree.attributes.nodes);
-      }
-    });
+    for (const std::string& format : io::default_formats()) {
+      if (format != io::native_format().name)
+        require_copy(comm, paths.mesh(format), solved.tree.attributes.nodes);
+    }
     return solved;
   } catch (const InputError& fault) {  // the same on every rank
     throw InputError(fault.what() + cure_of(folder));

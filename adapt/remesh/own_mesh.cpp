@@ -11,8 +11,10 @@
 #include "generate/leaf_quadrant.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/mesh/check/quality.hpp"
+#include "mesher/mesh/check/surely_valid.hpp"
 #include "mesher/mesh/check/validate.hpp"
 #include "mesher/mesh/layers/layer_nodes.hpp"
+#include "mesher/mesh/scatter_mesh.hpp"
 
 namespace quadloop::adapt {
 
@@ -55,12 +57,14 @@ void require_counts(const MeshCounts& of_mesh, const TreeAttributes& of_tree, co
                   of_tree.triangles, of_tree.quads));
 }
 
-bool is_mesh_of_tree(const Mesh& whole, const TreeAttributes& tree) {
-  const auto count = [](const auto& rows) { return std::ssize(rows); };
-  const bool counts = count(whole.points) == tree.nodes && count(whole.triangles) == tree.triangles &&
-                      count(whole.quads) == tree.quads;
-  return counts && digest_of_owned(whole) == tree.coordinate_digest &&
-         validate(whole, cell_blocks(whole)).empty();
+bool is_mesh_of_tree(const Communicator& comm, const Mesh& mesh, const TreeAttributes& tree) {
+  const MeshCounts counts = count(comm, mesh);
+  const bool same_counts =
+      counts.nodes == tree.nodes && counts.triangles == tree.triangles && counts.quads == tree.quads;
+  if (!same_counts || coordinate_digest(comm, mesh) != tree.coordinate_digest) return false;
+  if (is_surely_valid(comm, mesh)) return true;
+  const Mesh whole = gather_whole(comm, mesh);
+  return !comm.any(comm.is_root() && !validate(whole, cell_blocks(whole)).empty());
 }
 
 void require_own_mesh(const Communicator& comm, const SolvedMesh& solved, const std::string& shown,

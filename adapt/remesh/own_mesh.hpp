@@ -11,8 +11,9 @@ namespace quadloop::adapt {
 void require_counts(const MeshCounts& of_mesh, const TreeAttributes& of_tree, const std::string& shown,
                     const std::string& tree);
 
-/// Whether a whole mesh is bitwise the one that the tree was saved with.
-bool is_mesh_of_tree(const Mesh& whole, const TreeAttributes& tree);
+/// Whether a mesh, of which each rank has an even share, is bitwise the one that the tree was saved with.
+/// *Collective.*
+bool is_mesh_of_tree(const Communicator& comm, const Mesh& mesh, const TreeAttributes& tree);
 
 /// Throws InputError on all ranks unless the mesh can be the one that the tree was saved with: equal numbers
 /// of nodes and cells, and either all nodes in place (as for a morphed mesh), or each quadtree cell's mesh

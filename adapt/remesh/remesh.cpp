@@ -8,19 +8,18 @@
 #include "adapt/remesh/demands/mirrored_leaves.hpp"
 #include "adapt/remesh/demands/restart.hpp"
 #include "mesher/mesh/block_runs.hpp"
-#include "mesher/mesh/scatter_mesh.hpp"
+#include "mesher/mesh/reorder_mesh.hpp"
 
 namespace quadloop::adapt {
 
-SolvedMesh spread_solved(const Communicator& comm, const Mesh& whole, const Field& solution,
-                         TreeRecord tree) {
-  MeshOrder order;
-  comm.together([&] {
-    if (comm.is_root()) order = order_by_runs(whole, tree.block_runs);
-  });
-  SolvedMesh solved{scatter_mesh(comm, whole, order), std::move(tree), {}, {}};
-  solved.solution = scatter_field(comm, solution, solved.mesh, order);
-  set_blocks(comm, broadcast_words(comm, whole.blocks.names), solved.tree.block_runs, solved.mesh);
+SolvedMesh in_tree_order(const Communicator& comm, Mesh mesh, Field solution, TreeRecord tree) {
+  if (tree.block_runs.empty()) {
+    mesh.blocks = {};
+    return {std::move(mesh), std::move(tree), std::move(solution), {}};
+  }
+  const ReorderedMesh reordered(comm, mesh, order_by_runs(comm, mesh, tree.block_runs));
+  SolvedMesh solved{reordered.mesh(mesh), std::move(tree), reordered.field(solution), {}};
+  set_blocks(comm, mesh.blocks.names, solved.tree.block_runs, solved.mesh);
   return solved;
 }
 

@@ -10,9 +10,9 @@
 
 namespace quadloop::adapt {
 
-/// Distributes a whole mesh on the root, whose cells are in the order of the quadtree cells within each
-/// block, with its solution and tree. *Collective.*
-SolvedMesh spread_solved(const Communicator& comm, const Mesh& whole, const Field& solution, TreeRecord tree);
+/// Returns a mesh of which each rank has an even share, and whose cells are in the order of the quadtree
+/// cells within each block, in the order of the quadtree, with its solution and tree. *Collective.*
+SolvedMesh in_tree_order(const Communicator& comm, Mesh mesh, Field solution, TreeRecord tree);
 
 /// Result of an initial adaptation pass, with a loosely converged solution.
 struct PassRecord {

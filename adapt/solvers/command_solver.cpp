@@ -9,8 +9,9 @@
 #include "io/mesh_file.hpp"
 #include "io/solution_file.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/base/parallel/even_shares.hpp"
 #include "mesher/mesh/block_runs.hpp"
-#include "mesher/mesh/scatter_mesh.hpp"
+#include "mesher/mesh/reorder_mesh.hpp"
 
 namespace quadloop::adapt {
 
@@ -40,26 +41,40 @@ void write_for(const Communicator& comm, const Mesh& mesh, const Field& start, c
   outputs.commit();
 }
 
-/// Reads the solution of the command and distributes it. *Collective.*
+/// Moves a field in even shares of nodes and cells to the ranges that a mesh has. *Collective.*
+Field in_ranges_of(const Communicator& comm, const Mesh& mesh, Field even) {
+  const auto count = [](const auto& rows, std::size_t width) {
+    return static_cast<std::int64_t>(std::size(rows) * width);
+  };
+  const std::size_t width = even.cells.width();
+  even.values = in_ranges(comm, std::move(even.values), mesh.owned_nodes * std::ssize(even.names));
+  if (width == 0) return even;
+  const EvenShare triangles(comm, comm.sum(std::ssize(mesh.triangles)));
+  const auto middle = even.cells.values.begin() + triangles.size() * static_cast<std::int64_t>(width);
+  std::vector<double> of_quads(middle, even.cells.values.end());
+  even.cells.values.erase(middle, even.cells.values.end());
+  even.cells.values = in_ranges(comm, std::move(even.cells.values), count(mesh.triangles, width));
+  of_quads = in_ranges(comm, std::move(of_quads), count(mesh.quads, width));
+  even.cells.values.insert(even.cells.values.end(), of_quads.begin(), of_quads.end());
+  return even;
+}
+
+/// Reads the solution of the command, in the order of the mesh. *Collective.*
 Field read_left(const Communicator& comm, const Mesh& mesh, const flow::SolverCommand& command,
                 const flow::SolverFiles& files) {
-  Field whole;
-  MeshOrder order;
   const std::vector<BlockRun> runs = block_runs(comm, mesh);
-  comm.together([&] {
-    if (!comm.is_root()) return;
-    try {
-      io::LoadedSolution left = io::read_solution(files.solution);
-      const io::LoadedMesh given = io::read_mesh(CyclePaths{files.folder}.native_mesh());
-      io::require_same_mesh(left, given.mesh);
-      order = order_by_runs(given.mesh, runs);
-      whole = std::move(left.solution);
-    } catch (const InputError& fault) {
-      throw SolverError(flow::solver_message(command, files,
-                                             std::string("left no solution for its mesh: ") + fault.what()));
-    }
-  });
-  return scatter_field(comm, whole, mesh, order);
+  try {
+    io::LoadedSolution left = io::read_solution(comm, files.solution);
+    const io::LoadedMesh given = io::read_mesh(comm, CyclePaths{files.folder}.native_mesh());
+    io::require_same_mesh(comm, left, given.mesh);
+    if (!runs.empty())
+      left.solution =
+          ReorderedMesh(comm, given.mesh, order_by_runs(comm, given.mesh, runs)).field(left.solution);
+    return in_ranges_of(comm, mesh, std::move(left.solution));
+  } catch (const InputError& fault) {
+    throw SolverError(
+        flow::solver_message(command, files, std::string("left no solution for its mesh: ") + fault.what()));
+  }
 }
 
 }  // namespace

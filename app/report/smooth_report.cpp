@@ -25,11 +25,11 @@ std::string range_of(const smoother::Histogram& h, std::size_t i) {
 
 }  // namespace
 
-ShapeReport report_shapes(const Communicator& comm, const Mesh& mesh, const Mesh& whole) {
+ShapeReport report_shapes(const Communicator& comm, const Mesh& mesh) {
   std::optional<QualitySummary> outside;
   if (has_layers(mesh)) outside = quality_by_layers(comm, mesh, layer_places(comm, mesh)).others;
   return {summarise_quality(comm, mesh), outside, smoother::shape_histograms(comm, mesh),
-          comm.is_root() ? area_ratios(whole) : AreaRatios{}};
+          area_ratios(comm, mesh)};
 }
 
 JsonObject record_of(const ShapeReport& report) {

@@ -16,11 +16,11 @@ struct ShapeReport {
   QualitySummary quality;
   std::optional<QualitySummary> outside;  ///< of the cells outside layers, if there are layers
   std::vector<smoother::Histogram> histograms;
-  AreaRatios areas;  ///< on the root rank only
+  AreaRatios areas;
 };
 
-/// `whole` is the same mesh, whole on the root rank. *Collective.*
-ShapeReport report_shapes(const Communicator& comm, const Mesh& mesh, const Mesh& whole);
+/// *Collective.*
+ShapeReport report_shapes(const Communicator& comm, const Mesh& mesh);
 
 /// Returns the members of a record; each histogram as {"limits", "counts"}.
 JsonObject record_of(const ShapeReport& report);

@@ -8,13 +8,13 @@
 
 #include "io/files/reading/input_file.hpp"
 #include "io/text/text_scanner.hpp"
+#include "io/text/tokens.hpp"
 #include "mesher/base/error.hpp"
 
 namespace quadloop::io {
 
 namespace {
 
-bool is_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 bool is_sign(char c) { return std::string_view("(){};").find(c) != std::string_view::npos; }
 
 std::string read_foam_text(const std::string& path) {
@@ -33,7 +33,7 @@ FoamScanner::FoamScanner(std::string path) : path_{std::move(path)}, text_{read_
 void FoamScanner::skip() {
   while (at_ < text_.size()) {
     const std::string_view rest = std::string_view(text_).substr(at_);
-    if (is_blank(rest.front())) {
+    if (is_space(rest.front())) {
       ++at_;
     } else if (rest.starts_with("//")) {
       at_ = std::min(text_.find('\n', at_), text_.size());
@@ -60,7 +60,7 @@ std::string_view FoamScanner::token(std::string_view expected) {
   } else if (text_[at_] == '"') {
     at_ = std::min(text_.find('"', at_ + 1), text_.size() - 1) + 1;
   } else {
-    while (at_ < text_.size() && !is_blank(text_[at_]) && !is_sign(text_[at_])) ++at_;
+    while (at_ < text_.size() && !is_space(text_[at_]) && !is_sign(text_[at_])) ++at_;
   }
   return std::string_view(text_).substr(token_, at_ - token_);
 }

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "mesher/base/error.hpp"
+#include "mesher/mesh/node_exchange.hpp"
 
 namespace quadloop::io {
 
@@ -25,6 +26,11 @@ class Fixed {
   void fix(const Nodes& nodes) {
     flags_.resize(loaded_.mesh.points.size(), 0);
     for (const NodeId node : nodes) flags_[node] = 1;
+  }
+  void fix(GlobalNodeId node) {
+    const std::int64_t own = node.value() - loaded_.mesh.first_node;
+    const bool is_own = 0 <= own && own < loaded_.mesh.owned_nodes;
+    fix(std::vector<NodeId>(is_own ? 1 : 0, NodeId{static_cast<std::int32_t>(own)}));
   }
   void fix(const BoundaryEdges& curve) {
     for (const auto& edge : curve.edges) fix(edge);
@@ -63,22 +69,36 @@ std::vector<std::string> known_names(const LoadedMesh& loaded) {
   return {names.begin(), names.end()};
 }
 
-/// Returns boundaries with an edge whose nodes are both periodic.
-std::vector<std::string> periodic_boundaries(const LoadedMesh& loaded) {
-  NodeFlags periodic(loaded.mesh.points.size(), 0);
-  for (const NodeId node : loaded.periodic_nodes) periodic[node] = 1;
+/// Returns boundaries with an edge whose nodes are both periodic. *Collective.*
+std::vector<std::string> periodic_boundaries(const Communicator& comm, const LoadedMesh& loaded,
+                                             const NodeFlags& periodic) {
   const auto is_periodic = [&](const auto& edge) { return periodic[edge[0]] != 0 && periodic[edge[1]] != 0; };
   std::vector<std::string> names;
   for (const BoundaryEdges& boundary : loaded.mesh.boundaries) {
-    if (std::ranges::any_of(boundary.edges, is_periodic)) names.push_back(boundary.name);
+    if (comm.any(std::ranges::any_of(boundary.edges, is_periodic))) names.push_back(boundary.name);
   }
   return names;
 }
 
+/// Sets the flags of a node on all ranks that have it if one of them has set it. *Collective.*
+void agree(const Communicator& comm, const Mesh& mesh, NodeFlags& flags) {
+  if (!comm.any(!flags.empty())) return;
+  flags.resize(mesh.points.size(), 0);
+  std::vector<GlobalNodeId> ghosts;
+  for_each_flagged(flags, [&](NodeId node) {
+    if (!mesh.owns(node)) ghosts.push_back(mesh.global(node));
+  });
+  const NodeOwners owners(comm, mesh.first_node);
+  flag_at_owners(comm, owners, ghosts, flags);
+  std::span<char> all(flags.data(), flags.size());
+  NodeExchange(comm, owners, mesh.owned_nodes, mesh.ghosts).update(all);
+}
+
 }  // namespace
 
-std::vector<std::string> fix_nodes(const LoadedMesh& loaded, std::span<const std::string> names,
-                                   const std::string& path, NodeFlags& flags) {
+std::vector<std::string> fix_nodes(const Communicator& comm, const LoadedMesh& loaded,
+                                   std::span<const std::string> names, const std::string& path,
+                                   NodeFlags& flags) {
   Fixed fixed(loaded, flags);
   for (const std::string& name : names) {
     if (!fixed.fix_named(name))
@@ -86,15 +106,21 @@ std::vector<std::string> fix_nodes(const LoadedMesh& loaded, std::span<const std
                                    quoted(known_names(loaded))));
   }
   std::vector<std::string> notes;
-  if (!loaded.periodic_nodes.empty()) {
-    fixed.fix(loaded.periodic_nodes);
+  NodeFlags periodic;
+  for (const NodeId node : loaded.periodic_nodes) {
+    periodic.resize(loaded.mesh.points.size(), 0);
+    periodic[node] = 1;
+  }
+  agree(comm, loaded.mesh, periodic);
+  if (!periodic.empty()) {
+    for_each_flagged(periodic, [&](NodeId node) { fixed.fix(std::array{node}); });
     notes.push_back(
         fmt::format("{}: the nodes of {} are fixed, because these sides are periodic or match node by node",
-                    path, quoted(periodic_boundaries(loaded))));
+                    path, quoted(periodic_boundaries(comm, loaded, periodic))));
   }
   std::vector<std::string> names_of_nodes;
   for (const NamedNode& named : loaded.mesh.named_nodes) {
-    fixed.fix(std::array{NodeId{static_cast<std::int32_t>(named.node.value())}});
+    fixed.fix(named.node);
     names_of_nodes.push_back(named.name);
   }
   if (!names_of_nodes.empty())
@@ -106,6 +132,8 @@ std::vector<std::string> fix_nodes(const LoadedMesh& loaded, std::span<const std
   }
   if (!curves.empty())
     notes.push_back(fmt::format("{}: the nodes of the inner curves {} are fixed", path, quoted(curves)));
+  agree(comm, loaded.mesh, flags);
+  flags.resize(flags.empty() ? 0 : loaded.mesh.owned_nodes);
   return notes;
 }
 

@@ -12,16 +12,17 @@
 
 namespace quadloop::io {
 
-/// A whole mesh from a file, on one rank: every node is owned.
+/// One rank's part of a mesh from a file, or a whole mesh on one rank. Nodes and cells are in the order of
+/// the file; each rank has an even share of them. Names and warnings are the same on all ranks.
 struct LoadedMesh {
   Mesh mesh;
   std::int32_t blocks = 1;
-  /// From 0; the cells of a block are contiguous.
+  /// Of this rank's cells, from 0; over all ranks, the cells of a block are contiguous.
   std::vector<std::int32_t> triangle_to_block, quad_to_block;
   std::vector<std::string> block_names;
   std::vector<BoundaryEdges> inner_curves = {};  ///< named edges inside a block: not boundaries
   std::vector<NodeId> periodic_nodes = {};       ///< on sides that the file marks as periodic
-  std::optional<Field> solution = {};
+  std::optional<Field> solution = {};            ///< rows of this rank's nodes and cells
   std::vector<std::string> warnings = {};  ///< what the reader reversed or omitted, with the file's name
 };
 

@@ -9,14 +9,15 @@
 
 namespace quadloop::io {
 
-/// A solution from a file, whole on one rank, with what the file contains of its mesh. Names are words
-/// (distinct_words()), to be found by variable().
+/// One rank's part of a solution from a file, with what the file contains of its mesh: an even share of the
+/// rows of nodes, in the order of the file, and the cells of the mesh. Names are words (distinct_words()), to
+/// be found by variable().
 struct LoadedSolution {
   std::string path;
   Field solution;
-  std::int64_t nodes = 0;          ///< rows of the solution
+  std::int64_t nodes = 0;          ///< of all ranks
   std::optional<LoadedMesh> mesh;  ///< mesh of the file, without its solution; empty for a table of values
-  std::vector<Point> points;       ///< of such a table, if it has coordinates
+  std::vector<Point> points;       ///< of the rows of such a table, if it has coordinates
 };
 
 }  // namespace quadloop::io

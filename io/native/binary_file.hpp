@@ -14,8 +14,8 @@ namespace quadloop::io {
 /// The solution must have a row for each owned node. Throws OutputError on all ranks. *Collective.*
 void write_binary(OutputSet& outputs, const MeshStream& mesh, const std::string& path);
 
-/// Reads such a file on the calling rank only. Boundaries of the same name are merged. Throws InputError on
-/// anything else; geometric errors are left to validate().
-LoadedMesh read_binary(const std::string& path);
+/// Reads such a file, each rank its even share of every array. Boundaries of the same name are merged. Throws
+/// InputError on anything else, on all ranks; geometric errors are left to validate(). *Collective.*
+LoadedMesh read_binary(const Communicator& comm, const std::string& path);
 
 }  // namespace quadloop::io

@@ -42,7 +42,6 @@ class HeaderParser {
     while (next(), !take("end")) line();
     if (line_.find_first_not_of(' ') != std::string_view::npos) refuse("something follows 'end'");
     if (header_.blocks.empty()) refuse("a mesh has at least one block");
-    require_limits();
     return std::move(header_);
   }
 
@@ -116,12 +115,6 @@ class HeaderParser {
     const auto known = BoundaryCondition::named(text);
     if (!known) refuse(fmt::format("'{}' is no boundary condition", text.substr(0, longest_quote)));
     return *known;
-  }
-
-  void require_limits() const {
-    constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
-    if (std::max({header_.nodes, header_.triangles(), header_.quads(), header_.edges()}) > most)
-      throw InputError(path_ + ": more than 2^31 - 1 nodes, cells or edges cannot be read on one rank");
   }
 
   [[noreturn]] void refuse(const std::string& what) const {

@@ -5,50 +5,52 @@
 #include <bit>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <span>
 
 #include "io/files/binary_output.hpp"
 #include "io/files/reading/input_file.hpp"
-#include "io/model/node_text.hpp"
-#include "io/model/pair_text.hpp"
-#include "io/model/strip_text.hpp"
 #include "io/native/binary_file.hpp"
 #include "io/native/binary_header.hpp"
+#include "io/native/native_parts.hpp"
 #include "io/text/name_index.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/base/parallel/even_shares.hpp"
 
 namespace quadloop::io {
 
 namespace {
 
+/// Each rank reads its even share of every array.
 class BinaryReader {
  public:
-  explicit BinaryReader(const std::string& path) : path_{path} {
-    require_input_file(path);  // not a pipe, as the size must be known
-    file_.emplace(path);
-    size_ = static_cast<std::int64_t>(file_->bytes_left());
+  BinaryReader(const Communicator& comm, const std::string& path) : comm_{comm}, path_{path} {
+    comm.together([&] { file_.emplace(path); });  // not a pipe, as the size must be known
+    require_same_size(comm, path, file_->size());
   }
 
   LoadedMesh read() {
-    const std::string head = read_head();
-    header_ = header_of_text(head, size_, path_);
-    read_nodes();
+    comm_.together([&] {
+      const std::string head = read_head();
+      place_ = std::ssize(head);
+      header_ = header_of_text(head, file_->size(), path_);
+      require_limits();
+    });
+    NativeParts parts(comm_, path_, read_points());
     if (header_.node_bytes == 4)
-      read_connectivity<std::int32_t>();
+      read_connectivity<std::int32_t>(parts);
     else
-      read_connectivity<std::int64_t>();
-    if (header_.constants > 0 || !header_.variables.empty() || !header_.cell_variables.empty())
-      read_solution();
-    read_strips();
-    return std::move(loaded_);
+      read_connectivity<std::int64_t>(parts);
+    parts.add_comments(header_.comments, header_.nodes);
+    return parts.finish(read_solution());
   }
 
  private:
-  std::string read_head() {
+  std::string read_head() const {
     constexpr std::string_view says = "header ";
-    std::string text(std::min<std::int64_t>(size_, 64), '\0');
-    read_into(std::span(text));
+    std::string text(std::min<std::int64_t>(file_->size(), 64), '\0');
+    file_->read_at(0, std::as_writable_bytes(std::span(text)));
     const bool is_ours = text.starts_with(binary_first_line);
     const std::size_t second = binary_first_line.size(), end = text.find('\n', second);
     if (!is_ours || end == std::string::npos || !text.substr(second).starts_with(says)) {
@@ -59,22 +61,38 @@ class BinaryReader {
     const std::size_t begin = std::min(text.find_first_not_of(' ', second + says.size()), end);
     std::int64_t wanted = 0;
     const auto [stopped, error] = std::from_chars(text.data() + begin, text.data() + end, wanted);
-    if (error != std::errc{} || stopped != text.data() + end || wanted < std::ssize(text) || wanted > size_)
+    if (error != std::errc{} || stopped != text.data() + end || wanted < std::ssize(text) ||
+        wanted > file_->size())
       throw InputError(path_ + ":2: this is not how many bytes the head has; the file is damaged");
     const std::size_t before = text.size();
     text.resize(wanted);
-    read_into(std::span(text).subspan(before));
+    file_->read_at(static_cast<std::int64_t>(before),
+                   std::as_writable_bytes(std::span(text).subspan(before)));
     return text;
   }
 
-  template <class T>
-  void read_into(std::span<T> into) {
-    file_->read_all(reinterpret_cast<char*>(into.data()), into.size_bytes());
+  void require_limits() const {
+    const std::int64_t most = std::int64_t{std::numeric_limits<std::int32_t>::max()} * comm_.size();
+    if (std::max({header_.nodes, header_.triangles(), header_.quads(), header_.edges()}) > most)
+      throw InputError(path_ + ": more than 2^31 - 1 nodes, cells or edges cannot be read on one rank");
   }
 
-  std::vector<double> read_reals(std::size_t count) {
-    std::vector<double> values(count);
-    read_into(std::span(values));
+  /// Reads this rank's share of the next array, of `rows` rows in the file, and goes to its end.
+  template <class Row>
+  std::vector<Row> read_share(std::int64_t rows) {
+    const EvenShare share(comm_, rows);
+    std::vector<Row> own(share.size());
+    file_->read_at(place_ + share.begin * std::int64_t{sizeof(Row)}, std::as_writable_bytes(std::span(own)));
+    place_ += rows * std::int64_t{sizeof(Row)};
+    return own;
+  }
+
+  /// Reads rows of `width` values.
+  std::vector<double> read_reals(std::int64_t rows, std::int64_t width) {
+    const EvenShare share(comm_, rows);
+    std::vector<double> values(share.size() * width);
+    file_->read_at(place_ + share.begin * width * real_bytes, std::as_writable_bytes(std::span(values)));
+    place_ += rows * width * real_bytes;
     for (double& value : values) value = in_order<std::endian::little>(value);
     return values;
   }
@@ -83,111 +101,147 @@ class BinaryReader {
     return std::ranges::find_if_not(values, [](double v) { return std::isfinite(v); }) - values.begin();
   }
 
-  void read_nodes() {
-    Mesh& mesh = loaded_.mesh;
-    mesh.points.resize(header_.nodes);
-    mesh.owned_nodes = size32(mesh.points);
-    read_into(std::span(mesh.points));
-    for (std::size_t i = 0; i < mesh.points.size(); ++i) {
-      Point& p = mesh.points[i];
-      p = {in_order<std::endian::little>(p.x), in_order<std::endian::little>(p.y)};
-      if (!std::isfinite(p.x) || !std::isfinite(p.y))
-        throw InputError(
-            fmt::format("{}: node {} lies at ({}, {}), which is not finite", path_, i, p.x, p.y));
-    }
-  }
-
-  template <class Number, std::size_t width>
-  void read_rows(std::size_t count, const char* of, std::vector<std::array<NodeId, width>>& rows) {
-    constexpr std::size_t rows_of_piece = std::size_t{1} << 14;
-    std::vector<std::array<Number, width>> piece(std::min(count, rows_of_piece));
-    rows.reserve(rows.size() + count);
-    for (std::size_t done = 0; done < count; done += piece.size()) {
-      piece.resize(std::min(count - done, rows_of_piece));
-      read_into(std::span(piece));
-      for (std::size_t i = 0; i < piece.size(); ++i) {
-        auto& row = rows.emplace_back();
-        for (std::size_t k = 0; k < width; ++k) {
-          const std::int64_t node = in_order<std::endian::little>(piece[i][k]);
-          if (node < 0 || node >= header_.nodes) refuse_node(node, of, done + i);
-          row[k] = NodeId{static_cast<std::int32_t>(node)};
-        }
+  std::vector<Point> read_points() {
+    std::vector<Point> points;
+    comm_.together([&] {
+      points = read_share<Point>(header_.nodes);
+      const std::int64_t first = EvenShare(comm_, header_.nodes).begin;
+      for (std::int64_t i = 0; i < std::ssize(points); ++i) {
+        Point& p = points[i];
+        p = {in_order<std::endian::little>(p.x), in_order<std::endian::little>(p.y)};
+        if (!std::isfinite(p.x) || !std::isfinite(p.y))
+          throw InputError(
+              fmt::format("{}: node {} lies at ({}, {}), which is not finite", path_, first + i, p.x, p.y));
       }
-    }
+    });
+    return points;
   }
 
-  [[noreturn]] void refuse_node(std::int64_t node, const char* of, std::size_t row) const {
-    throw InputError(fmt::format("{}: {} {} has node {}, which is none of the nodes 0 to {}", path_, of, row,
-                                 node, header_.nodes - 1));
+  /// Reads this rank's share of an array of node numbers, and passes the nodes of its rows to `take(nodes)`
+  /// piece by piece; `name(row)` names one of its rows in the file. *Collective.*
+  template <class Number, std::size_t width, class Name, class Take>
+  void read_nodes(std::int64_t count, const Name& name, const Take& take) {
+    constexpr std::int64_t rows_of_piece = std::int64_t{1} << 14;
+    constexpr std::int64_t row_bytes = width * sizeof(Number);
+    comm_.together([&] {
+      const EvenShare share(comm_, count);
+      std::vector<Number> numbers;
+      std::vector<GlobalNodeId> nodes;
+      for (std::int64_t row = share.begin; row < share.end; row += rows_of_piece) {
+        numbers.resize(width * std::min(rows_of_piece, share.end - row));
+        file_->read_at(place_ + row * row_bytes, std::as_writable_bytes(std::span(numbers)));
+        nodes.clear();
+        for (const Number number : numbers) {
+          const std::int64_t node = in_order<std::endian::little>(number);
+          if (node < 0 || node >= header_.nodes)
+            throw InputError(fmt::format("{}: {} has node {}, which is none of the nodes 0 to {}", path_,
+                                         name(row + std::ssize(nodes) / std::int64_t{width}), node,
+                                         header_.nodes - 1));
+          nodes.emplace_back(node);
+        }
+        take(std::span<const GlobalNodeId>(nodes));
+      }
+      place_ += count * row_bytes;
+    });
   }
 
   template <class Number>
-  void read_connectivity() {
-    Mesh& mesh = loaded_.mesh;
-    read_rows<Number>(header_.triangles(), "triangle", mesh.triangles);
-    read_rows<Number>(header_.quads(), "quad", mesh.quads);
-    loaded_.blocks = size32(header_.blocks);
-    for (std::int32_t b = 0; b < loaded_.blocks; ++b) {
-      const auto& [name, triangles, quads] = header_.blocks[b];
-      loaded_.block_names.push_back(name);
-      loaded_.triangle_to_block.resize(loaded_.triangle_to_block.size() + triangles, b);
-      loaded_.quad_to_block.resize(loaded_.quad_to_block.size() + quads, b);
+  void read_connectivity(NativeParts& parts) {
+    const auto cell = [](const char* of) {
+      return [of](std::int64_t row) { return fmt::format("{} {}", of, row); };
+    };
+    std::vector<std::string> names;
+    std::vector<std::int64_t> triangles, quads;
+    for (const auto& block : header_.blocks) {
+      names.push_back(block.name);
+      triangles.push_back(block.triangles);
+      quads.push_back(block.quads);
     }
-    NameIndex names;
+    parts.set_blocks(std::move(names), triangles, quads);
+    read_nodes<Number, 3>(header_.triangles(), cell("triangle"),
+                          [&](std::span<const GlobalNodeId> nodes) { parts.add_triangles(nodes); });
+    read_nodes<Number, 4>(header_.quads(), cell("quad"),
+                          [&](std::span<const GlobalNodeId> nodes) { parts.add_quads(nodes); });
+    NameIndex known;
+    std::vector<std::int32_t> entries;
+    std::vector<std::int64_t> counts;
     for (const auto& [name, condition, edges, layers, inner_line] : header_.boundaries) {
+      counts.push_back(edges);
       if (inner_line) {
-        loaded_.inner_curves.push_back({.name = name, .condition = {}, .edges = {}});
-        read_rows<Number>(edges, "edge of an inner line", loaded_.inner_curves.back().edges);
+        entries.push_back(parts.add_inner_line(name));
         continue;
       }
-      const auto [index, is_new] = names.entry_of(name);
-      if (is_new) mesh.boundaries.push_back({name, condition, {}, layers});
-      read_rows<Number>(edges, "boundary edge", mesh.boundaries[index].edges);
+      const auto [index, is_new] = known.entry_of(name);
+      if (is_new) parts.add_boundary(name, condition, layers);
+      entries.push_back(index);
     }
+    std::vector<GlobalNodeId> edges;
+    read_nodes<Number, 2>(
+        header_.edges(), [&](std::int64_t row) { return edge_name(row); },
+        [&](std::span<const GlobalNodeId> nodes) { edges.insert(edges.end(), nodes.begin(), nodes.end()); });
+    parts.set_edges(edges, entries, counts);
   }
 
-  void read_solution() {
+  /// Returns what a message calls an edge: its number is that in its list.
+  std::string edge_name(std::int64_t row) const {
+    for (const auto& list : header_.boundaries) {
+      if (row < list.edges)
+        return fmt::format("{} {}", list.inner_line ? "edge of an inner line" : "boundary edge", row);
+      row -= list.edges;
+    }
+    return {};
+  }
+
+  std::optional<Field> read_solution() {
+    if (header_.constants == 0 && header_.variables.empty() && header_.cell_variables.empty())
+      return std::nullopt;
     Field solution;
-    const std::size_t cells = loaded_.mesh.cell_count();
-    solution.constants = read_reals(header_.constants);
-    if (const std::size_t at = first_not_finite(solution.constants); at < solution.constants.size())
-      throw InputError(fmt::format("{}: constant {} is not finite", path_, at));
+    comm_.together([&] {
+      solution.constants.resize(header_.constants);
+      file_->read_at(place_, std::as_writable_bytes(std::span(solution.constants)));
+      place_ += header_.constants * real_bytes;
+      for (double& value : solution.constants) value = in_order<std::endian::little>(value);
+      if (const std::size_t at = first_not_finite(solution.constants); at < solution.constants.size())
+        throw InputError(fmt::format("{}: constant {} is not finite", path_, at));
+    });
     solution.names = header_.variables;
-    solution.values = read_values(solution.names, loaded_.mesh.points.size(), "node");
+    solution.values = read_values(solution.names, header_.nodes, 0, "node");
     solution.cells.names = header_.cell_variables;
-    solution.cells.values = read_values(solution.cells.names, cells, "cell");
-    loaded_.solution = std::move(solution);
+    solution.cells.values = read_values(solution.cells.names, header_.triangles(), 0, "cell");
+    const std::vector<double> of_quads =
+        read_values(solution.cells.names, header_.quads(), header_.triangles(), "cell");
+    solution.cells.values.insert(solution.cells.values.end(), of_quads.begin(), of_quads.end());
+    return solution;
   }
 
-  std::vector<double> read_values(const std::vector<std::string>& names, std::size_t rows,
-                                  const char* place) {
-    std::vector<double> values = read_reals(rows * names.size());
-    if (const std::size_t at = first_not_finite(values); at < values.size())
+  /// `before` is added to numbers of rows in messages. *Collective.*
+  std::vector<double> read_values(const std::vector<std::string>& names, std::int64_t rows,
+                                  std::int64_t before, const char* place) {
+    std::vector<double> values;
+    comm_.together([&] {
+      values = read_reals(rows, std::ssize(names));
+      const std::size_t at = first_not_finite(values);
+      if (at == values.size()) return;
+      const std::int64_t first = before + EvenShare(comm_, rows).begin;
       throw InputError(fmt::format("{}: {} is not finite at {} {}", path_, names[at % names.size()], place,
-                                   at / names.size()));
+                                   first + static_cast<std::int64_t>(at / names.size())));
+    });
     return values;
   }
 
-  void read_strips() {
-    const StripsInText found = strips_in_comments(header_.comments, loaded_.mesh.owned_nodes);
-    loaded_.mesh.strips = found.strips;
-    loaded_.mesh.pairs = pairs_in_comments(header_.comments);
-    loaded_.mesh.named_nodes = nodes_in_comments(header_.comments, loaded_.mesh.owned_nodes);
-    for (const std::string& name : found.damaged)
-      loaded_.warnings.push_back(
-          path_ + ": the comment '# strip " + name +
-          "' does not list the nodes of a strip; its cells are treated as ordinary cells");
-  }
+  static constexpr std::int64_t real_bytes = sizeof(double);
 
+  const Communicator& comm_;
   const std::string& path_;
-  std::optional<InputPieces> file_;
-  std::int64_t size_ = 0;
+  std::optional<PlacedInput> file_;
+  std::int64_t place_ = 0;  ///< of the next array
   BinaryHeader header_;
-  LoadedMesh loaded_;
 };
 
 }  // namespace
 
-LoadedMesh read_binary(const std::string& path) { return BinaryReader(path).read(); }
+LoadedMesh read_binary(const Communicator& comm, const std::string& path) {
+  return BinaryReader(comm, path).read();
+}
 
 }  // namespace quadloop::io

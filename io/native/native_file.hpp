@@ -1,8 +1,10 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include "io/files/output_file.hpp"
+#include "io/files/reading/line_range.hpp"
 #include "io/model/loaded_mesh.hpp"
 #include "io/stream/mesh_stream.hpp"
 
@@ -13,9 +15,11 @@ namespace quadloop::io {
 /// node. Throws OutputError on all ranks. *Collective.*
 void write_native(OutputSet& outputs, const MeshStream& mesh, const std::string& path);
 
-/// Reads a native mesh, with the solution if the file has one, on the calling rank only. Boundaries of the
-/// same name are merged. Throws InputError "file:line: ..." on anything else; geometric errors are left to
-/// validate().
-LoadedMesh read_native(const std::string& path);
+/// Reads a native mesh, with the solution if the file has one: each rank the lines in its range of bytes,
+/// then the rows are distributed evenly. Nodes and cells are in the order of the file. Boundaries of the same
+/// name are merged. Throws InputError "file:line: ..." of the first error in the file, on all ranks;
+/// geometric errors are left to validate(). A rank holds `piece` bytes of the file at a time. *Collective.*
+LoadedMesh read_native(const Communicator& comm, const std::string& path,
+                       std::size_t piece = LineRange::usual_piece);
 
 }  // namespace quadloop::io

@@ -28,7 +28,7 @@ PartStatistics write_parts(PartFiles& files, const Communicator& comm, const Mes
 
 /// The same for a mesh that is whole on the root rank; prefix, number and formats are used on every rank.
 /// *Collective.*
-PartStatistics write_parts_of_root(PartFiles& files, const Communicator& comm, const LoadedMesh& whole,
-                                   const PartRequest& request);
+PartStatistics write_parts(PartFiles& files, const Communicator& comm, const LoadedMesh& loaded,
+                           const PartRequest& request);
 
 }  // namespace quadloop::io

@@ -1,5 +1,7 @@
 #include "io/parts/part_reader.hpp"
 
+#include <mpi.h>
+
 #include <algorithm>
 #include <iterator>
 #include <map>
@@ -19,7 +21,7 @@ namespace quadloop::io {
 namespace {
 
 LoadedMesh read_piece(const std::string& path, const std::string& format) {
-  if (format == "mesh") return read_native(path);
+  if (format == "mesh") return read_native(Communicator(MPI_COMM_SELF), path);
   if (format == "cgns") return plane_of(read_cgns(path), path);
   return plane_of(read_vtu(path), path);
 }

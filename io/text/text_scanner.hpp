@@ -4,11 +4,9 @@
 #include <string>
 #include <string_view>
 
-namespace quadloop::io {
+#include "io/text/tokens.hpp"
 
-/// Whether a token is a number as a whole, also with a Fortran exponent (1.0D-3), in any locale; includes
-/// "nan" and "inf". Values outside the range of doubles become 0 or infinity.
-bool parse_real(std::string_view token, double& value);
+namespace quadloop::io {
 
 /// Reads blank-separated tokens of a text in memory, and skips comments (from a `comment` character at the
 /// beginning of a token to the end of its line). Errors are InputErrors "file:line: ...".

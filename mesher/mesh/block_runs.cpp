@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <numeric>
+#include <span>
 #include <string>
 
 #include "mesher/base/error.hpp"
+#include "mesher/base/parallel/even_shares.hpp"
 
 namespace quadloop {
 
@@ -32,37 +34,46 @@ std::vector<BlockRun> joined(const std::vector<BlockRun>& runs) {
   return all;
 }
 
-/// The numbers of each block's cells, in their order in the file.
-std::vector<std::vector<std::int32_t>> cells_by_block(const std::vector<std::int32_t>& blocks,
-                                                      std::size_t count) {
-  std::vector<std::vector<std::int32_t>> cells(count);
-  for (std::int32_t cell = 0; const std::int32_t block : blocks) cells[block].push_back(cell++);
-  return cells;
-}
-
 [[noreturn]] void refuse(std::int64_t block) {
   throw InputError("block " + std::to_string(block + 1) +
                    " has another number of cells than in the tree; give the tree file that was written with "
                    "this mesh");
 }
 
-std::vector<std::int32_t> order_of_kind(std::int64_t corners, const std::vector<std::int32_t>& blocks,
-                                        std::size_t count, const std::vector<BlockRun>& runs) {
-  const std::vector<std::vector<std::int32_t>> cells = cells_by_block(blocks, count);
-  std::vector<std::int64_t> used(count, 0);
-  std::vector<std::int32_t> order;
-  order.reserve(blocks.size());
+/// Returns the number of each block's cells over all ranks. *Collective.*
+std::vector<std::int64_t> cells_of_blocks(const Communicator& comm, const std::vector<std::int32_t>& blocks,
+                                          std::size_t count) {
+  std::vector<std::int64_t> cells(count, 0);
+  for (const std::int32_t block : blocks) ++cells[block];
+  const std::vector<std::int64_t> of_ranks = comm.all_gather_values(std::span<const std::int64_t>(cells));
+  std::ranges::fill(cells, 0);
+  for (std::size_t i = 0; i < of_ranks.size(); ++i) cells[i % count] += of_ranks[i];
+  return cells;
+}
+
+/// Returns the numbers, in the file, of the cells of a kind that are in this rank's share of the quadtree's
+/// order. *Collective.*
+std::vector<std::int64_t> order_of_kind(const Communicator& comm, std::int64_t corners,
+                                        const std::vector<std::int32_t>& blocks, std::size_t count,
+                                        const std::vector<BlockRun>& runs) {
+  const std::vector<std::int64_t> cells = cells_of_blocks(comm, blocks, count);
+  const EvenShare share(comm, std::accumulate(cells.begin(), cells.end(), std::int64_t{0}));
+  std::vector<std::int64_t> next(count, 0), ends(count, 0);  // the cells of a block that were not used yet
+  std::inclusive_scan(cells.begin(), cells.end(), ends.begin());
+  for (std::size_t b = 1; b < count; ++b) next[b] = ends[b - 1];
+  std::vector<std::int64_t> order;
+  std::int64_t first = 0;  // place of the run
   for (const BlockRun& run : runs) {
     if (run.corners != corners) continue;
     if (run.block < 0 || run.block >= std::ssize(cells)) refuse(run.block);
-    const std::vector<std::int32_t>& own = cells[run.block];
-    std::int64_t& next = used[run.block];
-    if (run.cells < 0 || run.cells > std::ssize(own) - next) refuse(run.block);
-    order.insert(order.end(), own.begin() + next, own.begin() + next + run.cells);
-    next += run.cells;
+    if (run.cells < 0 || run.cells > ends[run.block] - next[run.block]) refuse(run.block);
+    const std::int64_t begin = std::max(first, share.begin), end = std::min(first + run.cells, share.end);
+    for (std::int64_t i = begin; i < end; ++i) order.push_back(next[run.block] + i - first);
+    next[run.block] += run.cells;
+    first += run.cells;
   }
   for (std::size_t b = 0; b < count; ++b) {
-    if (used[b] < std::ssize(cells[b])) refuse(static_cast<std::int64_t>(b));
+    if (next[b] < ends[b]) refuse(static_cast<std::int64_t>(b));
   }
   return order;
 }
@@ -94,13 +105,13 @@ std::vector<BlockRun> block_runs(const Communicator& comm, const Mesh& mesh) {
   return joined(all);
 }
 
-MeshOrder order_by_runs(const Mesh& whole, const std::vector<BlockRun>& runs) {
-  const MeshBlocks& blocks = whole.blocks;
-  MeshOrder order = own_order(whole);
+PartOrder order_by_runs(const Communicator& comm, const Mesh& mesh, const std::vector<BlockRun>& runs) {
+  PartOrder order = own_order(comm, mesh);
   if (runs.empty()) return order;
+  const MeshBlocks& blocks = mesh.blocks;
   const std::size_t count = blocks.names.size();
-  order.triangles = order_of_kind(triangle_corners, blocks.of_triangles, count, runs);
-  order.quads = order_of_kind(quad_corners, blocks.of_quads, count, runs);
+  order.triangles = order_of_kind(comm, triangle_corners, blocks.of_triangles, count, runs);
+  order.quads = order_of_kind(comm, quad_corners, blocks.of_quads, count, runs);
   return order;
 }
 

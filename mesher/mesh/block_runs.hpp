@@ -5,7 +5,7 @@
 
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/mesh.hpp"
-#include "mesher/mesh/scatter_mesh.hpp"
+#include "mesher/mesh/reorder_mesh.hpp"
 #include "mesher/mesh/tree_record.hpp"
 
 namespace quadloop {
@@ -14,10 +14,10 @@ namespace quadloop {
 /// domain is one block. The same on every rank. *Collective.*
 std::vector<BlockRun> block_runs(const Communicator& comm, const Mesh& mesh);
 
-/// Returns the order of a whole mesh whose cells are sorted by block, as files store them: entry i of the
-/// order is the cell that is the i-th one in the quadtree. Throws InputError if a block has another number of
-/// cells than in the runs. Without runs, the mesh's own order.
-MeshOrder order_by_runs(const Mesh& whole, const std::vector<BlockRun>& runs);
+/// Returns the order, in the quadtree, of a mesh whose cells are sorted by block, as files store them. Throws
+/// InputError on all ranks if a block has another number of cells than in the runs. Without runs, the mesh's
+/// own order. *Collective.*
+PartOrder order_by_runs(const Communicator& comm, const Mesh& mesh, const std::vector<BlockRun>& runs);
 
 /// Sets the block of each of this rank's cells, whose order is that of the quadtree. *Collective.*
 void set_blocks(const Communicator& comm, const std::vector<std::string>& names,

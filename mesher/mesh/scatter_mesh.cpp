@@ -1,14 +1,15 @@
 #include "mesher/mesh/scatter_mesh.hpp"
 
+#include <mpi.h>
+
 #include <algorithm>
-#include <bit>
-#include <cmath>
+#include <map>
 #include <numeric>
+#include <unordered_map>
 
 #include "mesher/base/ids.hpp"
-#include "mesher/base/morton.hpp"
-#include "mesher/mesh/node_exchange.hpp"
-#include "mesher/mesh/node_table.hpp"
+#include "mesher/mesh/part_builder.hpp"
+#include "mesher/mesh/reorder_mesh.hpp"
 
 namespace quadloop {
 
@@ -24,34 +25,10 @@ struct GlobalEdge {
   std::int32_t boundary;
 };
 
-/// Morton keys of the nodes, in their bounding box.
-std::vector<std::uint64_t> curve_keys(const Mesh& mesh) {
-  Box box;
-  for (const Point p : mesh.points) box.include(p);
-  const double side = std::max(box.width(), box.height());
-  constexpr double steps = (std::uint64_t{1} << 31) - 1;
-  const auto step = [&](double at, double low) {
-    return static_cast<std::uint32_t>(side > 0 ? (at - low) / side * steps : 0);
-  };
-  std::vector<std::uint64_t> keys;
-  keys.reserve(mesh.points.size());
-  for (const Point p : mesh.points) keys.push_back(morton_key(step(p.x, box.low.x), step(p.y, box.low.y)));
-  return keys;
-}
-
 std::vector<std::int32_t> numbers_to(std::size_t count) {
   std::vector<std::int32_t> numbers(count);
   std::iota(numbers.begin(), numbers.end(), 0);
   return numbers;
-}
-
-/// Returns the indices in the order of their keys; the sort is stable.
-template <class Key>
-std::vector<std::int32_t> ordered_by(const std::vector<Key>& keys) {
-  std::vector<std::int32_t> order = numbers_to(keys.size());
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::int32_t a, std::int32_t b) { return keys[a] < keys[b]; });
-  return order;
 }
 
 /// Maps each node of the whole mesh to its position in the order.
@@ -62,35 +39,11 @@ NodeNumbers inverse_of(const std::vector<std::int32_t>& order) {
   return inverse;
 }
 
-template <std::size_t width>
-std::vector<std::int32_t> ordered_cells(const Cells<width>& cells, const NodeNumbers& numbers) {
-  std::vector<GlobalNodeId> first;
-  for (const auto& nodes : cells) {
-    GlobalNodeId least = numbers[nodes[0]];
-    for (const NodeId node : nodes) least = std::min(least, numbers[node]);
-    first.push_back(least);
-  }
-  return ordered_by(first);
-}
-
-/// Measures how far apart the node numbers of cells are, as a sum of powers of two: small if neighbours have
-/// close numbers.
-template <std::size_t width>
-std::int64_t spread(const Cells<width>& cells, const NodeNumbers& numbers) {
-  std::int64_t sum = 0;
-  for (const auto& nodes : cells) {
-    GlobalNodeId least = numbers[nodes[0]], largest = least;
-    for (const NodeId node : nodes) {
-      least = std::min(least, numbers[node]);
-      largest = std::max(largest, numbers[node]);
-    }
-    sum += std::bit_width(static_cast<std::uint64_t>(largest.value() - least.value()));
-  }
-  return sum;
-}
-
-std::int64_t spread(const Mesh& mesh, const NodeNumbers& numbers) {
-  return spread(mesh.triangles, numbers) + spread(mesh.quads, numbers);
+MeshOrder narrowed(const PartOrder& order) {
+  const auto narrow = [](const std::vector<std::int64_t>& numbers) {
+    return std::vector<std::int32_t>(numbers.begin(), numbers.end());
+  };
+  return {narrow(order.nodes), narrow(order.triangles), narrow(order.quads)};
 }
 
 /// As scatter_evenly() of `count` rows, which the root creates piecewise by `make(i)`, as it also holds the
@@ -225,57 +178,22 @@ std::vector<PeriodicPair> broadcast_pairs(const Communicator& comm, const Mesh& 
   return pairs;
 }
 
-/// Builds a rank's part from its nodes and from cells with global node numbers.
-class PartBuilder {
- public:
-  PartBuilder(const Communicator& comm, std::vector<Point> points)
-      : part_{part_of(comm, std::move(points))}, nodes_{part_} {}
-
-  /// Receives the rank's part of the root's cells. *Collective.*
-  template <std::size_t width>
-  void scatter_cells(const Communicator& comm, const Cells<width>& cells,
-                     const std::vector<std::int32_t>& order, const NodeNumbers& numbers, Cells<width>& to) {
-    const auto make = [&](std::size_t i) {
-      std::array<GlobalNodeId, width> nodes;
-      for (std::size_t k = 0; k < width; ++k) nodes[k] = numbers[cells[order[i]][k]];
-      return nodes;
-    };
-    const auto take = [&](const GlobalCells<width>& some) {
-      for (const auto& cell : some) {
-        std::array<NodeId, width> nodes;
-        for (std::size_t k = 0; k < width; ++k) nodes[k] = local(cell[k]);
-        to.push_back(nodes);
-      }
-    };
-    scatter_made(
-        comm, order.size(), make, [&](std::size_t own) { to.reserve(own); }, take);
-  }
-  void add_edges(const std::vector<GlobalEdge>& edges) {
-    for (const GlobalEdge& e : edges)
-      part_.boundaries[e.boundary].edges.push_back({local(e.from), local(e.to)});
-  }
-  Mesh& part() { return part_; }
-
-  /// Fetches the positions of the ghosts. *Collective.*
-  Mesh finish(const Communicator& comm) {
-    const NodeOwners owners(comm, part_.first_node);
-    NodeExchange(comm, owners, part_.owned_nodes, part_.ghosts).update(part_.points);
-    return std::move(part_);
-  }
-
- private:
-  static Mesh part_of(const Communicator& comm, std::vector<Point> points) {
-    Mesh part;
-    part.points = std::move(points);
-    part.owned_nodes = size32(part.points);
-    part.first_node = comm.exclusive_sum(part.owned_nodes);
-    return part;
-  }
-  NodeId local(GlobalNodeId node) { return nodes_.local(node, {}); }
-
-  Mesh part_;
-  NodeTable nodes_;
-};
+/// Receives the rank's part of the root's cells. *Collective.*
+template <std::size_t width>
+void scatter_cells(const Communicator& comm, const Cells<width>& cells,
+                   const std::vector<std::int32_t>& order, const NodeNumbers& numbers, PartBuilder& builder,
+                   Cells<width>& to) {
+  const auto make = [&](std::size_t i) {
+    std::array<GlobalNodeId, width> nodes;
+    for (std::size_t k = 0; k < width; ++k) nodes[k] = numbers[cells[order[i]][k]];
+    return nodes;
+  };
+  scatter_made(
+      comm, order.size(), make, [&](std::size_t own) { to.reserve(own); },
+      [&](const GlobalCells<width>& some) {
+        builder.append(std::span<const std::array<GlobalNodeId, width>>(some), to);
+      });
+}
 
 /// Gathers all cells on the root, with global node numbers. *Collective.*
 template <std::size_t width>
@@ -346,19 +264,11 @@ std::array<std::span<Values>, 2> by_kind(std::span<Values> rows, std::size_t tri
 }  // namespace
 
 MeshOrder space_filling_order(const Mesh& whole) {
-  MeshOrder order;
-  order.nodes = ordered_by(curve_keys(whole));
-  const NodeNumbers numbers = inverse_of(order.nodes);
-  order.triangles = ordered_cells(whole.triangles, numbers);
-  order.quads = ordered_cells(whole.quads, numbers);
-  return order;
+  return narrowed(space_filling_order(Communicator(MPI_COMM_SELF), whole));
 }
 
 MeshOrder order_for_parts(const Mesh& whole) {
-  MeshOrder curve = space_filling_order(whole);
-  const std::int64_t of_curve = spread(whole, inverse_of(curve.nodes)),
-                     own = spread(whole, inverse_of(numbers_to(whole.points.size())));
-  return 4 * own <= 5 * of_curve ? own_order(whole) : curve;
+  return narrowed(order_for_parts(Communicator(MPI_COMM_SELF), whole));
 }
 
 MeshOrder own_order(const Mesh& whole) {
@@ -369,10 +279,11 @@ MeshOrder own_order(const Mesh& whole) {
 Mesh scatter_mesh(const Communicator& comm, const Mesh& whole, const MeshOrder& order) {
   const NodeNumbers numbers = inverse_of(order.nodes);
   PartBuilder builder(comm, scatter_points(comm, whole, order));
-  builder.scatter_cells(comm, whole.triangles, order.triangles, numbers, builder.part().triangles);
-  builder.scatter_cells(comm, whole.quads, order.quads, numbers, builder.part().quads);
+  scatter_cells(comm, whole.triangles, order.triangles, numbers, builder, builder.part().triangles);
+  scatter_cells(comm, whole.quads, order.quads, numbers, builder, builder.part().quads);
   builder.part().boundaries = broadcast_boundaries(comm, whole);
-  builder.add_edges(scatter_edges(comm, whole, numbers));
+  for (const GlobalEdge& e : scatter_edges(comm, whole, numbers))
+    builder.part().boundaries[e.boundary].edges.push_back(builder.local(std::array{e.from, e.to}));
   builder.part().strips = broadcast_strips(comm, whole, numbers);
   builder.part().pairs = broadcast_pairs(comm, whole);
   builder.part().named_nodes = broadcast_named_nodes(comm, whole, numbers);
@@ -429,6 +340,41 @@ Mesh gather_whole(const Communicator& comm, const Mesh& part) {
                   gather_at_root(comm, part.blocks.of_quads)};
   whole.pairs = part.pairs;
   whole.named_nodes = part.named_nodes;
+  return whole;
+}
+
+Mesh gather_boundaries(const Communicator& comm, const Mesh& part) {
+  struct End {
+    GlobalNodeId node;
+    Point place;
+  };
+  using Ends = std::array<End, 2>;
+  std::vector<std::vector<Ends>> edges;
+  Mesh whole;
+  for (const BoundaryEdges& boundary : part.boundaries) {
+    std::vector<Ends> own;
+    for (const auto& [from, to] : boundary.edges)
+      own.push_back({End{part.global(from), part.point(from)}, End{part.global(to), part.point(to)}});
+    edges.push_back(gather_at_root(comm, own));
+    whole.boundaries.push_back(boundary);
+    whole.boundaries.back().edges.clear();
+  }
+  std::map<GlobalNodeId, Point> nodes;
+  for (const std::vector<Ends>& of_boundary : edges) {
+    for (const Ends& ends : of_boundary) {
+      for (const End& end : ends) nodes.emplace(end.node, end.place);
+    }
+  }
+  std::unordered_map<GlobalNodeId, NodeId> numbers;
+  for (const auto& [node, place] : nodes) {
+    numbers.emplace(node, NodeId{size32(whole.points)});
+    whole.points.push_back(place);
+  }
+  whole.owned_nodes = size32(whole.points);
+  for (std::size_t b = 0; b < edges.size(); ++b) {
+    for (const Ends& ends : edges[b])
+      whole.boundaries[b].edges.push_back({numbers.at(ends[0].node), numbers.at(ends[1].node)});
+  }
   return whole;
 }
 

@@ -58,6 +58,10 @@ void gather_mesh(const Communicator& comm, const Mesh& part, const MeshOrder& or
 /// other ranks return a mesh without nodes. *Collective.*
 Mesh gather_whole(const Communicator& comm, const Mesh& part);
 
+/// Gathers the boundaries alone on the root: a mesh of their nodes, in ascending order, without cells; empty
+/// on other ranks, but with the same boundaries. *Collective.*
+Mesh gather_boundaries(const Communicator& comm, const Mesh& part);
+
 /// Distributes the root's values evenly, in the order of ranks. *Collective.*
 template <class T>
 std::vector<T> scatter_evenly(const Communicator& comm, std::span<const T> values) {

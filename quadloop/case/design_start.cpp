@@ -16,6 +16,7 @@
 #include "io/tree/tree_file.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/geometry/assemble/assemble.hpp"
+#include "mesher/mesh/check/quality.hpp"
 
 namespace quadloop {
 
@@ -123,17 +124,12 @@ FormerMesh find_former_mesh(const Communicator& comm, const std::string& from) {
 
 adapt::DesignStart read_start(const Communicator& comm, FormerMesh& former, std::optional<double> morph_to,
                               const std::string& file, const adapt::CaseSettings& settings) {
-  io::LoadedMesh whole;
-  comm.together([&] {
-    if (!comm.is_root()) return;
-    whole = io::read_mesh(former.mesh_file);
-    io::list_inner_curves(whole);
-    const auto count = [](const auto& rows) { return std::ssize(rows); };
-    adapt::require_counts({count(whole.mesh.points), count(whole.mesh.triangles), count(whole.mesh.quads), 0},
-                          former.tree.attributes, former.mesh_file, former.tree_file);
-  });
-  adapt::DesignStart start{
-      adapt::spread_solved(comm, whole.mesh, whole.solution.value_or(Field{}), std::move(former.tree)), {}};
+  io::LoadedMesh loaded = io::read_mesh(comm, former.mesh_file);
+  io::list_inner_curves(loaded);
+  adapt::require_counts(count(comm, loaded.mesh), former.tree.attributes, former.mesh_file, former.tree_file);
+  adapt::DesignStart start{adapt::in_tree_order(comm, std::move(loaded.mesh),
+                                                loaded.solution.value_or(Field{}), std::move(former.tree)),
+                           {}};
   start.solved.file = former.mesh_file;
   adapt::require_untouched_mesh(comm, start.solved, former.mesh_file, former.tree_file);
   if (morph_to)

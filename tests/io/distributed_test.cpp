@@ -77,7 +77,7 @@ TEST(NativeFile, SameBytesOnAnyNumberOfRanksAndComesBack) {
   if (!world().is_root()) return;
   test::write_alone(sample.alone, sample.mesh, folder.file("one.mesh"), &sample.solution);
   EXPECT_TRUE(test::bytes_of(folder.file("many.mesh")) == test::bytes_of(folder.file("one.mesh")));
-  const LoadedMesh loaded = read_native(folder.file("many.mesh"));
+  const LoadedMesh loaded = read_native(sample.alone, folder.file("many.mesh"));
   expect_same_mesh(loaded, sample.mesh);
   expect_same_solution(loaded, sample.solution);
   EXPECT_EQ(loaded.solution->names, sample.solution.names);
@@ -98,7 +98,7 @@ TEST(BinaryFile, SameBytesOnAnyNumberOfRanksAndComesBack) {
   if (!world().is_root()) return;
   write(sample.alone, sample.mesh, sample.solution, folder.file("one.qmesh"));
   EXPECT_TRUE(test::bytes_of(folder.file("many.qmesh")) == test::bytes_of(folder.file("one.qmesh")));
-  const LoadedMesh loaded = read_binary(folder.file("many.qmesh"));
+  const LoadedMesh loaded = read_binary(sample.alone, folder.file("many.qmesh"));
   expect_same_mesh(loaded, sample.mesh);
   expect_same_solution(loaded, sample.solution);
   EXPECT_EQ(loaded.solution->names, sample.solution.names);

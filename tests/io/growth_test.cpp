@@ -53,7 +53,7 @@ TEST(Growth, OfBlocks) {
       return folder.file(std::to_string(blocks) + (format == "polyMesh" ? "." : "a.") + format);
     };
     expect_linear("writing blocks in " + format, 1000,
-                  [&](int blocks) { write_mesh_of_root(world(), mesh_of_blocks(blocks), file(blocks)); });
+                  [&](int blocks) { write_mesh_file(world(), mesh_of_blocks(blocks), file(blocks)); });
     expect_linear("reading blocks in " + format, 1000, [&](int blocks) { read_mesh(file(blocks)); });
   }
 }
@@ -63,7 +63,7 @@ TEST(Growth, OfVariables) {
   for (const std::string format : {"mesh", "qmesh", "vtu", "msh"}) {
     const auto file = [&](int variables) { return folder.file(std::to_string(variables) + "." + format); };
     expect_linear("writing variables in " + format, 1000, [&](int variables) {
-      write_mesh_of_root(world(), mesh_of_variables(variables), file(variables));
+      write_mesh_file(world(), mesh_of_variables(variables), file(variables));
     });
     expect_linear("reading variables in " + format, 1000, [&](int variables) { read_mesh(file(variables)); });
   }

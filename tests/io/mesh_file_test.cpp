@@ -47,7 +47,7 @@ bool numbers_names(const std::string& format) { return format == "medit"; }
 
 LoadedMesh through_file(const LoadedMesh& loaded, const std::string& path) {
   const Communicator alone(MPI_COMM_SELF);
-  write_mesh_of_root(alone, loaded, path);
+  write_mesh_file(alone, loaded, path);
   LoadedMesh back = read_mesh(path);
   EXPECT_TRUE(back.warnings.empty()) << back.warnings.front();
   return back;
@@ -111,7 +111,7 @@ void convert_and_compare(LoadedMesh loaded, const std::string& first, const std:
       (kept && keeps_constants(first) && !keeps_constants(second) ? 1U : 0U) +
       (layers_carried && !layers_kept ? 1U : 0U) +
       (!knows_conditions && format_named(second)->unknown_boundary != nullptr ? 1U : 0U);
-  EXPECT_EQ(losses_in(between, folder.file("b." + second)).size(), losses);
+  EXPECT_EQ(losses_in(Communicator(MPI_COMM_SELF), between, folder.file("b." + second)).size(), losses);
 }
 
 TEST(MeshFile, EveryPairOfFormatsKeepsTheMesh) {
@@ -132,12 +132,14 @@ TEST(MeshFile, TheFormatIsThatOfTheSuffixUnlessItIsNamed) {
   const test::TemporaryFolder folder;
   const LoadedMesh loaded = sample(Kind::hybrid, false);
   const Communicator alone(MPI_COMM_SELF);
-  write_mesh_of_root(alone, loaded, folder.file("a.su2"));
+  write_mesh_file(alone, loaded, folder.file("a.su2"));
   for (const char* name : {"b", "b.xyz", "b.mesh"}) {
-    write_mesh_of_root(alone, loaded, folder.file(name), "su2");
+    write_mesh_file(alone, loaded, folder.file(name), "su2");
     EXPECT_EQ(test::bytes_of(folder.file(name)), test::bytes_of(folder.file("a.su2")));
   }
-  EXPECT_EQ(losses_in(sample(Kind::hybrid, true), folder.file("b.mesh"), "su2").size(), 3U);
+  EXPECT_EQ(
+      losses_in(Communicator(MPI_COMM_SELF), sample(Kind::hybrid, true), folder.file("b.mesh"), "su2").size(),
+      3U);
 }
 
 /// One block with a name, then two: kept, or a line says that they are not.
@@ -158,8 +160,9 @@ TEST(MeshFile, NamesOfBlocksAreKeptOrReported) {
         loaded.quad_to_block.back() = 1;
       }
       std::string losses;
-      for (const std::string& loss : losses_in(loaded, path)) losses += loss + "\n";
-      write_mesh_of_root(Communicator(MPI_COMM_SELF), loaded, path);
+      for (const std::string& loss : losses_in(Communicator(MPI_COMM_SELF), loaded, path))
+        losses += loss + "\n";
+      write_mesh_file(Communicator(MPI_COMM_SELF), loaded, path);
       const FileFormat& row = *format_named(format);
       const bool kept = row.holds(Content::block_names) && (two || row.single_block_name);
       EXPECT_EQ(losses.find("names of blocks, which are omitted: 'water'") == std::string::npos, kept)
@@ -186,7 +189,9 @@ TEST(MeshFile, ConditionsAreKeptOrReported) {
       const BoundaryCondition wanted = test::condition_back(format, condition);
       EXPECT_STREQ(back.mesh.boundaries[0].condition.word(), wanted.word());
       std::string losses;
-      for (const std::string& loss : losses_in(loaded, folder.file("a." + format))) losses += loss + "\n";
+      for (const std::string& loss :
+           losses_in(Communicator(MPI_COMM_SELF), loaded, folder.file("a." + format)))
+        losses += loss + "\n";
       const bool stores_some = format_named(format)->holds(Content::conditions);
       const std::string line = std::string(word) +
                                (stores_some ? std::string(" becomes ") + wanted.word() : "") + " ('" +
@@ -214,8 +219,9 @@ TEST(MeshFile, ConditionsBetweenBlocksAreKeptOrReported) {
       const auto [a, b, c, d] = loaded.mesh.quads.back();
       loaded.mesh.boundaries.push_back({"between", *BoundaryCondition::named(word), {{a, d}}});
       std::string losses;
-      for (const std::string& loss : losses_in(loaded, path)) losses += loss + "\n";
-      write_mesh_of_root(Communicator(MPI_COMM_SELF), loaded, path);
+      for (const std::string& loss : losses_in(Communicator(MPI_COMM_SELF), loaded, path))
+        losses += loss + "\n";
+      write_mesh_file(Communicator(MPI_COMM_SELF), loaded, path);
       const Mesh back = read_mesh(path).mesh;
       const auto found = std::ranges::find(back.boundaries, "between", &BoundaryEdges::name);
       const bool is_stored = format != "polyMesh";

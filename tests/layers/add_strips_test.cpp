@@ -169,7 +169,7 @@ TEST(AddStrips, TheirCellsAreThoseOfLayersAndABaseIsTheWalls) {
 TEST(AddStrips, WakesTakeAwayTheJumpsOfAreasAtEdges) {
   const Communicator self(MPI_COMM_SELF);
   const auto jump = [&](const std::vector<LayerLine>& lines) {
-    return area_ratios(gather_whole(self, Made(self, body(0), lines, false).mesh)).largest;
+    return area_ratios(self, gather_whole(self, Made(self, body(0), lines, false).mesh)).largest;
   };
   EXPECT_GT(jump({}), 20);
   EXPECT_LT(jump({wake(), wake("nose")}), 10);

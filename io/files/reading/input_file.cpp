@@ -26,6 +26,14 @@ bool pipes_allowed = false;
   throw InputError(path + ": cannot be opened (" + std::strerror(reason) + "); " + cure);
 }
 
+[[noreturn]] void refuse_reading(const std::string& path, int reason) {
+  throw InputError(path + ": cannot be read to its end (" + std::strerror(reason) + ")");
+}
+
+[[noreturn]] void refuse_changed(const std::string& path) {
+  throw InputError(path + ": ended while it was being read; another program may still be writing it");
+}
+
 }  // namespace
 
 /// An open file.
@@ -43,8 +51,15 @@ class InputDescriptor {
     for (;;) {
       const ssize_t got = ::read(number_, into, size);
       if (got >= 0) return got;
-      if (errno != EINTR)
-        throw InputError(path + ": cannot be read to its end (" + std::strerror(errno) + ")");
+      if (errno != EINTR) refuse_reading(path, errno);
+    }
+  }
+
+  std::size_t read_at(std::int64_t place, std::span<std::byte> into, const std::string& path) const {
+    for (;;) {
+      const ssize_t got = ::pread(number_, into.data(), into.size(), place);
+      if (got >= 0) return got;
+      if (errno != EINTR) refuse_reading(path, errno);
     }
   }
 
@@ -130,12 +145,34 @@ void InputPieces::append_next(std::string& text) {
 void InputPieces::read_all(char* into, std::size_t size) {
   while (size > 0) {
     const std::size_t got = file_->read(into, size, path_);
-    if (got == 0)
-      throw InputError(path_ + ": ended while it was being read; another program may still be writing it");
+    if (got == 0) refuse_changed(path_);
     into += got;
     size -= got;
     bytes_left_ -= std::min(bytes_left_, got);
   }
+}
+
+PlacedInput::PlacedInput(const std::string& path) : path_{path} {
+  size_ = require_readable_kind(path, false).st_size;
+  file_ = std::make_unique<InputDescriptor>(path);
+}
+
+PlacedInput::~PlacedInput() = default;
+
+void PlacedInput::read_at(std::int64_t place, std::span<std::byte> into) const {
+  while (!into.empty()) {
+    const std::size_t got = file_->read_at(place, into, path_);
+    if (got == 0) refuse_changed(path_);
+    into = into.subspan(got);
+    place += static_cast<std::int64_t>(got);
+  }
+}
+
+void require_same_size(const Communicator& comm, const std::string& path, std::int64_t size) {
+  if (comm.minimum(size) != comm.maximum(size))
+    throw InputError(path +
+                     ": has not the same size on all machines; another program may still be writing it, or "
+                     "the machines have different files of this name");
 }
 
 void allow_piped_input(bool allowed) { pipes_allowed = allowed; }

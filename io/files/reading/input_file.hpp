@@ -1,8 +1,12 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
+
+#include "mesher/base/parallel/communicator.hpp"
 
 namespace quadloop::io {
 
@@ -35,6 +39,27 @@ class InputPieces {
   bool is_pipe_ = false;
   std::size_t bytes_left_ = 0, taken_ = 0;
 };
+
+/// A file that is read at any place.
+class PlacedInput {
+ public:
+  /// Opens it; throws InputError, also for a pipe.
+  explicit PlacedInput(const std::string& path);
+  ~PlacedInput();
+
+  /// In bytes, when it was opened.
+  std::int64_t size() const { return size_; }
+  /// Reads all these bytes from an offset in the file. Throws InputError, also if the file ends before.
+  void read_at(std::int64_t place, std::span<std::byte> into) const;
+
+ private:
+  std::string path_;
+  std::unique_ptr<InputDescriptor> file_;
+  std::int64_t size_ = 0;
+};
+
+/// Throws InputError unless a file, opened by all ranks, has the same size on each. *Collective.*
+void require_same_size(const Communicator& comm, const std::string& path, std::int64_t size);
 
 /// Sets whether read_input() accepts pipes; initially it does not. Only for reading on one rank: data read
 /// from a pipe are lost for the others.

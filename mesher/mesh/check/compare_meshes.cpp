@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "mesher/base/parallel/exchange.hpp"
+#include "mesher/mesh/node_exchange.hpp"
 #include "mesher/mesh/topology.hpp"
 
 namespace quadloop {
@@ -59,15 +61,56 @@ std::string cell_difference(const std::string& kind, const std::vector<std::arra
       kind, nodes);
 }
 
+/// The same for a distributed mesh, for owned nodes. *Collective.*
+IdVector<NodeId, double> shortest_edges(const Communicator& comm, const Mesh& mesh) {
+  struct OfNode {
+    GlobalNodeId node;
+    double shortest;
+  };
+  IdVector<NodeId, double> shortest = shortest_edges(mesh);
+  const NodeOwners owners(comm, mesh.first_node);
+  Outbox<OfNode> out;
+  for (const NodeId node : ids_between(NodeId{mesh.owned_nodes}, NodeId{size32(mesh.points)}))
+    out.add(owners.rank_of(mesh.global(node)), {mesh.global(node), shortest[node]});
+  for (const auto& [node, of_node] : out.deliver(comm)) {
+    double& least = shortest[owners.local(node)];
+    least = std::min(least, of_node);
+  }
+  return shortest;
+}
+
+bool is_elsewhere(Point found, Point wanted, double square_of_shortest) {
+  const Point way = found - wanted;
+  return !(dot(way, way) <= same_place_tolerance * same_place_tolerance * square_of_shortest);
+}
+
+template <std::size_t width>
+using GlobalCells = std::vector<std::array<GlobalNodeId, width>>;
+
+/// Sends each cell, its nodes sorted, to the owner of its first node. *Collective.*
+template <std::size_t width>
+GlobalCells<width> cells_by_first_node(const Communicator& comm, const Mesh& mesh,
+                                       const Cells<width>& cells) {
+  const NodeOwners owners(comm, mesh.first_node);
+  Outbox<std::array<GlobalNodeId, width>> out;
+  for (const auto& nodes : cells) {
+    std::array<GlobalNodeId, width> numbers;
+    for (std::size_t k = 0; k < width; ++k) numbers[k] = mesh.global(nodes[k]);
+    std::ranges::sort(numbers);
+    out.add(owners.rank_of(numbers[0]), numbers);
+  }
+  GlobalCells<width> sorted = out.deliver(comm);
+  std::ranges::sort(sorted);
+  return sorted;
+}
+
 }  // namespace
 
 NodeFlags nodes_elsewhere(const std::vector<Point>& points, const Mesh& mesh) {
   const IdVector<NodeId, double> shortest = shortest_edges(mesh);
   NodeFlags elsewhere(points.size(), 0);
-  for (const NodeId node : elsewhere.ids()) {
-    const Point way = points[node.value()] - mesh.point(node);
-    elsewhere[node] = dot(way, way) <= same_place_tolerance * same_place_tolerance * shortest[node] ? 0 : 1;
-  }
+  for (const NodeId node : elsewhere.ids())
+    elsewhere[node] = is_elsewhere(points[node.value()], mesh.point(node), shortest[node]) ? 1 : 0;
   return elsewhere;
 }
 
@@ -103,6 +146,26 @@ std::string difference(const Mesh& found, const Mesh& whole) {
   if (text.empty()) text = cell_difference("triangles", found.triangles, whole.triangles);
   if (text.empty()) text = cell_difference("quads", found.quads, whole.quads);
   return text;
+}
+
+bool has_same_nodes(const Communicator& comm, std::int64_t nodes, const std::vector<Point>& points,
+                    const Mesh& mesh) {
+  if (comm.any(nodes != comm.sum(mesh.owned_nodes))) return false;
+  if (!comm.any(!points.empty())) return true;
+  const IdVector<NodeId, double> shortest = shortest_edges(comm, mesh);
+  bool same = std::ssize(points) >= mesh.owned_nodes;
+  for (const NodeId node : ids_below(NodeId{same ? mesh.owned_nodes : 0}))
+    same = same && !is_elsewhere(points[node.value()], mesh.point(node), shortest[node]);
+  return !comm.any(!same);
+}
+
+bool is_same_mesh(const Communicator& comm, const Mesh& found, const Mesh& mesh) {
+  if (!has_same_nodes(comm, comm.sum(found.owned_nodes), found.points, mesh)) return false;
+  const bool same_triangles = cells_by_first_node(comm, found, found.triangles) ==
+                              cells_by_first_node(comm, mesh, mesh.triangles),
+             same_quads =
+                 cells_by_first_node(comm, found, found.quads) == cells_by_first_node(comm, mesh, mesh.quads);
+  return !comm.any(!same_triangles || !same_quads);
 }
 
 }  // namespace quadloop

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/mesh.hpp"
 
 namespace quadloop {
@@ -31,5 +32,11 @@ std::string node_difference(std::int64_t nodes, const std::vector<Point>& points
 
 /// Returns the difference of the meshes: nodes within the tolerance above, cells in any order.
 std::string difference(const Mesh& found, const Mesh& whole);
+
+/// Whether node_difference() and difference() of the whole meshes are empty, for distributed ones that have
+/// even shares in their own order. *Collective.*
+bool has_same_nodes(const Communicator& comm, std::int64_t nodes, const std::vector<Point>& points,
+                    const Mesh& mesh);
+bool is_same_mesh(const Communicator& comm, const Mesh& found, const Mesh& mesh);
 
 }  // namespace quadloop

@@ -130,6 +130,12 @@ class Tally {
   bool surely_positive_ = true;
 };
 
+/// Whether the sum over all ranks is 0. *Collective.*
+bool is_zero_over_ranks(const Communicator& comm, std::uint64_t random_area) {
+  const std::vector<std::uint64_t> areas = comm.all_gather(random_area);
+  return std::accumulate(areas.begin(), areas.end(), std::uint64_t{0}) == 0;
+}
+
 /// The lower number first.
 using UndirectedEdge = std::pair<GlobalNodeId, GlobalNodeId>;
 
@@ -176,9 +182,8 @@ struct PlacedEdge {
   UndirectedEdge nodes() const { return {low, high}; }
 };
 
-/// Checks that no two boundary edges have the same nodes: cells on both sides would pass all other rules.
-/// *Collective.*
-void require_single_boundary_edges(const Communicator& comm, const Mesh& mesh) {
+/// Returns boundary edges, sorted by their nodes: all with the same nodes are on one rank. *Collective.*
+std::vector<PlacedEdge> meeting_boundary_edges(const Communicator& comm, const Mesh& mesh) {
   Outbox<PlacedEdge> out;
   for (const BoundaryEdges& boundary : mesh.boundaries) {
     for (const auto& [from, to] : boundary.edges) {
@@ -189,6 +194,13 @@ void require_single_boundary_edges(const Communicator& comm, const Mesh& mesh) {
   }
   std::vector<PlacedEdge> edges = out.deliver(comm);
   std::ranges::sort(edges, {}, &PlacedEdge::nodes);
+  return edges;
+}
+
+/// Checks that no two boundary edges have the same nodes: cells on both sides would pass all other rules.
+/// *Collective.*
+void require_single_boundary_edges(const Communicator& comm, const Mesh& mesh) {
+  const std::vector<PlacedEdge> edges = meeting_boundary_edges(comm, mesh);
   const auto twice = std::ranges::adjacent_find(edges, {}, &PlacedEdge::nodes);
   comm.together([&] {
     if (twice != edges.end()) report_unsound("an edge of the boundary has cells on both sides", twice->place);
@@ -204,16 +216,37 @@ void require_positive(const Communicator& comm, const Mesh& mesh) {
   });
 }
 
+/// *Collective.*
+bool has_single_boundary_edges(const Communicator& comm, const Mesh& mesh) {
+  const std::vector<PlacedEdge> edges = meeting_boundary_edges(comm, mesh);
+  return !comm.any(std::ranges::adjacent_find(edges, {}, &PlacedEdge::nodes) != edges.end());
+}
+
+/// *Collective.*
+bool all_positive(const Communicator& comm, const Mesh& mesh) {
+  Faults faults;
+  check_positive(mesh, faults);
+  return !comm.any(!faults.empty());
+}
+
 }  // namespace
+
+bool is_sound(const Communicator& comm, const Mesh& mesh) {
+  const MeshCounts counts = count(comm, mesh);
+  const Tally tally(mesh, box_over_ranks(comm, mesh.points),
+                    counts.triangles + counts.quads + counts.boundary_edges);
+  if (comm.any(!tally.all_surely_positive()) && !all_positive(comm, mesh)) return false;
+  if (!is_zero_over_ranks(comm, tally.random_area()) || !has_single_boundary_edges(comm, mesh)) return false;
+  const std::vector<double> twice = tally.twice_areas(comm);
+  return std::abs(twice[0] - twice[1]) <= area_tolerance * std::abs(twice[1]);
+}
 
 void require_sound(const Communicator& comm, const Mesh& mesh) {
   const Box box = box_over_ranks(comm, mesh.points);
   const MeshCounts counts = count(comm, mesh);
   const Tally tally(mesh, box, counts.triangles + counts.quads + counts.boundary_edges);
   if (comm.any(!tally.all_surely_positive())) require_positive(comm, mesh);
-  const std::vector<std::uint64_t> random_areas = comm.all_gather(tally.random_area());
-  if (std::accumulate(random_areas.begin(), random_areas.end(), std::uint64_t{0}) != 0)
-    report_unmatched(comm, mesh);
+  if (!is_zero_over_ranks(comm, tally.random_area())) report_unmatched(comm, mesh);
   require_single_boundary_edges(comm, mesh);
   const std::vector<double> twice = tally.twice_areas(comm);
   if (std::abs(twice[0] - twice[1]) <= area_tolerance * std::abs(twice[1])) return;

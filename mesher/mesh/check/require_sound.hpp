@@ -16,4 +16,7 @@ namespace quadloop {
 /// for a mesh that is whole on one rank. *Collective.*
 void require_sound(const Communicator& comm, const Mesh& mesh);
 
+/// Whether it does not throw. *Collective.*
+bool is_sound(const Communicator& comm, const Mesh& mesh);
+
 }  // namespace quadloop

@@ -1,14 +1,18 @@
 #include "mesher/mesh/check/shape_statistics.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <optional>
 #include <unordered_map>
 
+#include "mesher/mesh/check/cell_pairs.hpp"
 #include "mesher/mesh/check/corner_range.hpp"
 #include "mesher/mesh/check/quality.hpp"
+#include "mesher/mesh/halo_mesh.hpp"
 #include "mesher/mesh/topology.hpp"
 
 namespace quadloop {
@@ -193,11 +197,42 @@ std::vector<double> ratios_at_edges(const Mesh& mesh, const MeshTopology& topolo
   return ratios;
 }
 
-/// Returns the 99th percentile (smallest value that 99 % do not exceed) of a non-empty list. Reorders the
-/// values.
+double area_of_cell(const std::array<Point, 3>& p) { return cross(p[1] - p[0], p[2] - p[0]) / 2; }
+double area_of_cell(const std::array<Point, 4>& p) { return cross(p[2] - p[0], p[3] - p[1]) / 2; }
+
+/// Returns one ratio for each inner edge of which this rank owns the node with the lower number.
+/// *Collective.*
+std::vector<double> ratios_at_edges(const HaloMesh& halo) {
+  std::vector<double> ratios;
+  CellPairs<double> pairs(halo, [](NodeId) { return true; });
+  pairs.for_each([&](const auto& nodes, std::int32_t) { return area_of_cell(corners_of(halo, nodes)); },
+                 [&](NodeId from, NodeId to, double area, double other) {
+                   if (halo.owns(to) || halo.global(from) < halo.global(to))
+                     ratios.push_back(area_ratio(area, other));
+                 });
+  return ratios;
+}
+
+/// The 99th percentile is the smallest value that 99 % do not exceed: its rank, from 1, among `count` values.
+std::int64_t rank_of_99_percent(std::int64_t count) { return (count * 99 + 99) / 100; }
+
+/// Returns the k-th smallest value of all ranks, which are sorted on each and not negative. *Collective.*
+double kth_smallest(const Communicator& comm, const std::vector<double>& values, std::int64_t k) {
+  std::uint64_t low = 0, high = std::bit_cast<std::uint64_t>(std::numeric_limits<double>::infinity());
+  while (low < high) {  // such numbers are ordered as their bits
+    const std::uint64_t middle = low + (high - low) / 2;
+    const auto end = std::ranges::upper_bound(values, std::bit_cast<double>(middle));
+    if (comm.sum(end - values.begin()) >= k)
+      high = middle;
+    else
+      low = middle + 1;
+  }
+  return std::bit_cast<double>(low);
+}
+
+/// Returns the 99th percentile of a non-empty list. Reorders the values.
 double percentile_99(std::vector<double>& values) {
-  const std::size_t rank = (values.size() * 99 + 99) / 100;  // rounded up
-  const auto at = values.begin() + rank - 1;
+  const auto at = values.begin() + rank_of_99_percent(std::ssize(values)) - 1;
   std::nth_element(values.begin(), at, values.end());
   return *at;
 }
@@ -210,7 +245,14 @@ AreaRatios area_ratios(const Mesh& mesh, const MeshTopology& topology) {
 
 }  // namespace
 
-AreaRatios area_ratios(const Mesh& whole_mesh) { return area_ratios(whole_mesh, MeshTopology(whole_mesh)); }
+AreaRatios area_ratios(const Communicator& comm, const Mesh& mesh) {
+  std::vector<double> ratios = ratios_at_edges(HaloMesh(comm, mesh));
+  const std::int64_t count = comm.sum(std::ssize(ratios));
+  if (count == 0) return {};
+  std::ranges::sort(ratios);
+  return {comm.maximum(ratios.empty() ? 0 : ratios.back()),
+          kth_smallest(comm, ratios, rank_of_99_percent(count))};
+}
 
 ShapeStatistics shape_statistics(const Mesh& whole_mesh, const MeshTopology& topology,
                                  std::span<const Chain> geometry) {

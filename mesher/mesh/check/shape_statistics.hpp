@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "mesher/base/parallel/communicator.hpp"
 #include "mesher/geometry/geometry.hpp"
 #include "mesher/mesh/mesh.hpp"
 #include "mesher/mesh/topology.hpp"
@@ -41,8 +42,8 @@ struct AreaRatios {
   double largest = 0, of_99_percent = 0;
 };
 
-/// The mesh must be whole on this rank, with valid node numbers. Linear in time and memory.
-AreaRatios area_ratios(const Mesh& whole_mesh);
+/// The mesh must have valid node numbers. Linear in time and memory. *Collective.*
+AreaRatios area_ratios(const Communicator& comm, const Mesh& mesh);
 
 /// The mesh must be whole on this rank, with valid node numbers. `geometry` is what it was made from, the
 /// domain to the left of every chain; without it no corner is exempt. Linear in time and memory.

@@ -14,12 +14,7 @@ namespace {
 
 constexpr double turn_tolerance = 1e-4;  // degrees
 constexpr double full_turn = 360;
-// above this number windings are not counted; the other rules must suffice
-constexpr std::size_t most_components = 2000;
-
-struct Segment {
-  Point from, to;
-};
+using Segment = BoundarySegment;
 
 /// Whether two boundary edges meet other than at a common end or as the two sides of a crack.
 bool meet_wrongly(const Segment& s, const Segment& t) {
@@ -29,30 +24,6 @@ bool meet_wrongly(const Segment& s, const Segment& t) {
   const Point common = common_from ? s.from : s.to, s_end = common_from ? s.to : s.from;
   const Point t_end = common == t.from ? t.to : t.from;
   return on_segment(s_end, common, t_end) || on_segment(t_end, common, s_end);
-}
-
-void check_boundary_crossings(const std::vector<Segment>& segments, Faults& faults) {
-  std::vector<Box> boxes;
-  for (const Segment& s : segments) boxes.push_back(box_of(s.from, s.to));
-  const BoxTree tree(boxes);
-  for (std::size_t i = 0; i < segments.size(); ++i) {
-    tree.for_each_meeting(boxes[i], [&](std::int32_t number) {
-      const std::size_t j = number;
-      if (j <= i || !meet_wrongly(segments[i], segments[j])) return;
-      faults.push_back({MeshRule::overlap, "two boundary edges meet", segments[i].from});
-    });
-  }
-}
-
-/// Returns the winding number of the segments around p, exactly: signed crossings of the ray to its right.
-std::int32_t winding(const std::vector<Segment>& segments, Point p) {
-  std::int32_t turns = 0;
-  for (const Segment& s : segments) {
-    const bool upward = s.from.y <= p.y && p.y < s.to.y, downward = s.to.y <= p.y && p.y < s.from.y;
-    if (upward && orientation(s.from, s.to, p) > 0) ++turns;
-    if (downward && orientation(s.from, s.to, p) < 0) --turns;
-  }
-  return turns;
 }
 
 /// Returns a point inside one cell of each connected component of the mesh.
@@ -130,6 +101,29 @@ void check_turns(const Mesh& mesh, const NodeFlags& on_boundary, Faults& faults)
 }
 
 }  // namespace
+
+void check_boundary_crossings(const std::vector<Segment>& segments, Faults& faults) {
+  std::vector<Box> boxes;
+  for (const Segment& s : segments) boxes.push_back(box_of(s.from, s.to));
+  const BoxTree tree(boxes);
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    tree.for_each_meeting(boxes[i], [&](std::int32_t number) {
+      const std::size_t j = number;
+      if (j <= i || !meet_wrongly(segments[i], segments[j])) return;
+      faults.push_back({MeshRule::overlap, "two boundary edges meet", segments[i].from});
+    });
+  }
+}
+
+std::int32_t winding(const std::vector<Segment>& segments, Point p) {
+  std::int32_t turns = 0;
+  for (const Segment& s : segments) {
+    const bool upward = s.from.y <= p.y && p.y < s.to.y, downward = s.to.y <= p.y && p.y < s.from.y;
+    if (upward && orientation(s.from, s.to, p) > 0) ++turns;
+    if (downward && orientation(s.from, s.to, p) < 0) --turns;
+  }
+  return turns;
+}
 
 void check_area(const Mesh& mesh, const MeshTopology& topology, Faults& faults) {
   Box box;

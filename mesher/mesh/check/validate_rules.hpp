@@ -1,7 +1,7 @@
 #pragma once
 
-// For validate() and require_sound() only: the individual rules. All but the first require a mesh that
-// satisfies the first.
+// For validate(), require_sound() and is_surely_valid() only: the individual rules. All but the first require
+// a mesh that satisfies the first.
 
 #include <vector>
 
@@ -22,5 +22,19 @@ void check_conforming(const Mesh& mesh, const CellBlocks& blocks, const MeshTopo
 void check_closed(const Mesh& mesh, const MeshTopology& topology, Faults& faults);
 void check_area(const Mesh& mesh, const MeshTopology& topology, Faults& faults);
 void check_overlap(const Mesh& mesh, const MeshTopology& topology, Faults& faults);
+
+/// A boundary edge, with the domain to its left.
+struct BoundarySegment {
+  Point from, to;
+};
+
+/// Above this number of separate parts of a mesh windings are not counted; the other rules must suffice.
+inline constexpr std::size_t most_components = 2000;
+
+/// Adds an error for each two segments that meet other than at a common end or as the two sides of a crack.
+void check_boundary_crossings(const std::vector<BoundarySegment>& segments, Faults& faults);
+
+/// Returns the winding number of the segments around p, exactly: signed crossings of the ray to its right.
+std::int32_t winding(const std::vector<BoundarySegment>& segments, Point p);
 
 }  // namespace quadloop

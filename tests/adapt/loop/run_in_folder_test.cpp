@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "adapt/loop/cycle_files.hpp"
-#include "io/native/native_file.hpp"
+#include "io/mesh_file.hpp"
 #include "io/tree/tree_file.hpp"
 #include "mesher/base/error.hpp"
 #include "tests/io/sample_mesh.hpp"
@@ -67,7 +67,7 @@ TEST(RunInFolder, EachCycleHasItsFiles) {
                              "mesh.history.csv", "log.txt", "record.json"})
       EXPECT_TRUE(fs::exists(folder.file(cycle) + "/" + name)) << cycle << " " << name;
     EXPECT_EQ(test::files_in(folder.file(cycle)), 8U);
-    EXPECT_TRUE(io::read_native(folder.file(cycle) + "/mesh.mesh").solution.has_value());
+    EXPECT_TRUE(io::read_mesh(folder.file(cycle) + "/mesh.mesh").solution.has_value());
   }
   const std::string log = test::bytes_of(folder.file("run/cycle_01/log.txt"));
   EXPECT_TRUE(log.starts_with("cycle 1: "));
@@ -309,7 +309,7 @@ TEST(RunInFolder, ASolutionWithAnotherValueIsNotGoneOnFrom) {
   const std::string mesh = folder.file("run/cycle_00/mesh.mesh");
   if (world().is_root()) change_a_digit(mesh);
   world().barrier();
-  ASSERT_TRUE(io::read_native(mesh).solution.has_value()) << "the file is whole";
+  ASSERT_TRUE(io::read_mesh(mesh).solution.has_value()) << "the file is whole";
   try {
     heard.run(vortex_case(1), folder.file("run"), true);
     FAIL() << "the run goes on from a damaged solution";

@@ -123,7 +123,7 @@ TEST(FluentFile, BlocksComeBack) {
   whole.quad_to_block.assign(mesh.quads.size(), 0);
   mesh.boundaries.push_back({"between", "interface", {}});
   for (const auto& [a, b, c, d] : mesh.quads) mesh.boundaries.back().edges.push_back({c, d});
-  write_mesh_of_root(Communicator(MPI_COMM_SELF), whole, folder.file("a.fluent.msh"));
+  write_mesh_file(Communicator(MPI_COMM_SELF), whole, folder.file("a.fluent.msh"));
   const LoadedMesh back = read_mesh(folder.file("a.fluent.msh"));
   EXPECT_TRUE(validate(back.mesh, {back.blocks, back.triangle_to_block, back.quad_to_block}).empty());
   EXPECT_EQ(back.block_names, whole.block_names);
@@ -143,7 +143,7 @@ TEST(FluentFile, EdgesBetweenBlocksThatNoBoundaryNamesStayNone) {
   whole.block_names = {"upper", "lower"};
   whole.triangle_to_block.assign(whole.mesh.triangles.size(), 0);
   whole.quad_to_block.assign(whole.mesh.quads.size(), 1);
-  write_mesh_of_root(alone, whole, folder.file("a.fluent.msh"));
+  write_mesh_file(alone, whole, folder.file("a.fluent.msh"));
   const LoadedMesh back = read_mesh(folder.file("a.fluent.msh"));
   ASSERT_EQ(back.mesh.boundaries.size(), whole.mesh.boundaries.size());
   for (std::size_t b = 0; b < back.mesh.boundaries.size(); ++b)

@@ -80,7 +80,7 @@ TEST(MeditWriter, NumbersBoundariesAndBlocks) {
             (std::vector<std::string>{"boundary_2", "boundary_1", "boundary_3", "boundary_7", "boundary_4"}));
   const test::TemporaryFolder folder;
   const LoadedMesh loaded = check.of(replaced(house, "1 2 3 4 7", "1 2 3 4 9"));
-  write_mesh_of_root(Communicator(MPI_COMM_SELF), loaded, folder.file("a.mesh"), "medit");
+  write_mesh_file(Communicator(MPI_COMM_SELF), loaded, folder.file("a.mesh"), "medit");
   const LoadedMesh back = read_mesh(folder.file("a.mesh"));
   EXPECT_EQ(back.mesh.points, loaded.mesh.points);
   EXPECT_EQ(back.mesh.quads, loaded.mesh.quads);

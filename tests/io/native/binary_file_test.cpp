@@ -58,7 +58,7 @@ class BinaryFile : public testing::Test {
   }
   LoadedMesh read(const std::string& bytes) const {
     test::write_bytes(folder_.file("m.qmesh"), bytes);
-    return read_binary(folder_.file("m.qmesh"));
+    return read_binary(Communicator(MPI_COMM_SELF), folder_.file("m.qmesh"));
   }
   /// Without the folder; empty where the bytes are accepted.
   std::string refusal(const std::string& bytes) const {
@@ -162,8 +162,8 @@ TEST_F(BinaryFile, RefusesWhatIsNoSuchFile) {
   expect_refusal(with_line(bytes, "224\n", "949\n"), "m.qmesh:2: ", "damaged");
   expect_refusal(with_line(bytes, "224\n", "-24\n"), "m.qmesh:2: ", "damaged");
   expect_refusal(with_line(bytes, "224\n", "216\n"), "m.qmesh:12: ", "ends before its line 'end'");
-  EXPECT_THROW(read_binary(folder_.path()), InputError);
-  EXPECT_THROW(read_binary(folder_.file("missing.qmesh")), InputError);
+  EXPECT_THROW(read_binary(Communicator(MPI_COMM_SELF), folder_.path()), InputError);
+  EXPECT_THROW(read_binary(Communicator(MPI_COMM_SELF), folder_.file("missing.qmesh")), InputError);
 }
 
 TEST_F(BinaryFile, RefusesHeadsByLine) {

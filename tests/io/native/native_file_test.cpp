@@ -2,6 +2,7 @@
 #include "io/native/native_file.hpp"
 
 #include <gtest/gtest.h>
+#include <mpi.h>
 
 #include "mesher/base/error.hpp"
 #include "mesher/mesh/check/validate.hpp"
@@ -30,7 +31,7 @@ std::string replaced(std::string text, const std::string& what, const std::strin
 LoadedMesh read_text(const std::string& text) {
   const TemporaryFolder folder;
   test::write_bytes(folder.file("m.mesh"), text);
-  return read_native(folder.file("m.mesh"));
+  return read_native(Communicator(MPI_COMM_SELF), folder.file("m.mesh"));
 }
 
 /// Line and reason of the refusal, without the folder; empty where the text is accepted.
@@ -38,7 +39,7 @@ std::string refusal(const std::string& text) {
   const TemporaryFolder folder;
   test::write_bytes(folder.file("m.mesh"), text);
   try {
-    read_native(folder.file("m.mesh"));
+    read_native(Communicator(MPI_COMM_SELF), folder.file("m.mesh"));
   } catch (const InputError& error) {
     return std::string(error.what()).substr(folder.path().size() + 1);
   }
@@ -148,8 +149,8 @@ TEST(NativeReader, RefusesEarlyEndAndTrailingText) {
 
 TEST(NativeReader, RefusesWhatIsNoFile) {
   const TemporaryFolder folder;
-  EXPECT_THROW(read_native(folder.file("missing.mesh")), InputError);
-  EXPECT_THROW(read_native(folder.path()), InputError);
+  EXPECT_THROW(read_native(Communicator(MPI_COMM_SELF), folder.file("missing.mesh")), InputError);
+  EXPECT_THROW(read_native(Communicator(MPI_COMM_SELF), folder.path()), InputError);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "io/mesh_file.hpp"
+#include "io/model/distribute.hpp"
 #include "io/parts/part_output.hpp"
 #include "io/parts/part_reader.hpp"
 #include "mesher/base/error.hpp"
@@ -145,8 +146,8 @@ TEST(PartFiles, OfBlocksComeBackWhicheverBlocksAPartHas) {
   const LoadedMesh whole = sample_in_blocks();
   for (const std::string format : {"mesh", "vtu"}) {
     PartFiles files(world());
-    write_parts_of_root(files, world(), whole,
-                        {.prefix = folder.file(format), .parts = 5, .formats = {format}});
+    write_parts(files, world(), distributed(world(), whole),
+                {.prefix = folder.file(format), .parts = 5, .formats = {format}});
     files.commit();
   }
   world().barrier();

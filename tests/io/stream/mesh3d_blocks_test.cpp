@@ -160,7 +160,7 @@ TEST(StreamBlocks, APlanePolyMeshHasThemAsZones) {
   const test::TemporaryFolder folder;
   if (!world().is_root()) return;
   const LoadedMesh whole = two_blocks();
-  write_mesh_of_root(Communicator(MPI_COMM_SELF), whole, folder.file("polyMesh"));
+  write_mesh_file(Communicator(MPI_COMM_SELF), whole, folder.file("polyMesh"));
   const LoadedMesh back = read_mesh(folder.file("polyMesh"));
   EXPECT_TRUE(validate(back.mesh, {back.blocks, back.triangle_to_block, back.quad_to_block}).empty());
   EXPECT_EQ(back.block_names, whole.block_names);
@@ -172,7 +172,7 @@ TEST(StreamBlocks, ZonesOfAPolyMeshMayOverlapAndLeaveCellsOut) {
   const test::TemporaryFolder folder;
   if (!world().is_root()) return;
   const std::string path = folder.file("polyMesh");
-  write_mesh_of_root(Communicator(MPI_COMM_SELF), two_blocks(), path);
+  write_mesh_file(Communicator(MPI_COMM_SELF), two_blocks(), path);
   const auto write_zones = [&](const std::string& zones) {
     test::write_bytes(path + "/cellZones", "FoamFile { format ascii; }\n" + zones);
   };

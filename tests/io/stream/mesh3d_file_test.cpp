@@ -186,14 +186,15 @@ TEST(Mesh3dFile, InterfacesBetweenBlocksAreNoPatch) {
   whole.block_names = {"a", "b"};
   whole.triangle_to_block = {0, 0, 0, 0};
   whole.quad_to_block = {0, 1};
-  EXPECT_EQ(drop_interfaces(whole, "a.su2"), std::vector<std::string>{}) << "each zone has its faces";
+  EXPECT_EQ(drop_interfaces(Communicator(MPI_COMM_SELF), whole, "a.su2"), std::vector<std::string>{})
+      << "each zone has its faces";
   ASSERT_EQ(mesh.boundaries.size(), 4);
   EXPECT_EQ(mesh.boundaries[2].name, "between");
   EXPECT_EQ(mesh.boundaries[3].name, "a__b");
-  EXPECT_EQ(drop_interfaces(whole, "a.vtu"),
+  EXPECT_EQ(drop_interfaces(Communicator(MPI_COMM_SELF), whole, "a.vtu"),
             std::vector<std::string>{"a.vtu: the 2 edges between two blocks are no patch"});
   EXPECT_EQ(mesh.boundaries.size(), 2);
-  EXPECT_EQ(drop_interfaces(whole, "a.vtu"), std::vector<std::string>{});
+  EXPECT_EQ(drop_interfaces(Communicator(MPI_COMM_SELF), whole, "a.vtu"), std::vector<std::string>{});
 }
 
 }  // namespace

@@ -122,8 +122,8 @@ TEST(PvtuWriter, WritesOnePieceBesideTheList) {
   whole.mesh = test::sample_mesh(3);
   whole.triangle_to_block.assign(whole.mesh.triangles.size(), 0);
   whole.quad_to_block.assign(whole.mesh.quads.size(), 0);
-  write_mesh_of_root(Communicator(MPI_COMM_SELF), whole, folder.file("a.pvtu"));
-  write_mesh_of_root(Communicator(MPI_COMM_SELF), whole, folder.file("a.vtu"));
+  write_mesh_file(Communicator(MPI_COMM_SELF), whole, folder.file("a.pvtu"));
+  write_mesh_file(Communicator(MPI_COMM_SELF), whole, folder.file("a.vtu"));
   EXPECT_EQ(test::bytes_of(folder.file("a_0.vtu")), test::bytes_of(folder.file("a.vtu")));
   EXPECT_NE(test::bytes_of(folder.file("a.pvtu")).find("Source=\"a_0.vtu\""), std::string::npos);
 }

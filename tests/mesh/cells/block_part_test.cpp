@@ -8,6 +8,7 @@
 #include <set>
 
 #include "mesher/base/error.hpp"
+#include "mesher/base/parallel/even_shares.hpp"
 #include "mesher/mesh/block_runs.hpp"
 #include "mesher/mesh/check/validate.hpp"
 #include "tests/mesh/two_blocks.hpp"
@@ -94,12 +95,15 @@ TEST(BlockRuns, GiveTheOrderOfTheCellsBack) {
   const Mesh mesh = test::part_with_blocks(world(), whole, own_order(whole));
   const std::vector<BlockRun> runs = block_runs(world(), mesh);
   const Mesh file = by_block(whole);
-  const MeshOrder order = order_by_runs(file, runs);
-  ASSERT_EQ(order.triangles.size(), whole.triangles.size());
-  for (std::size_t i = 0; i < whole.triangles.size(); ++i)
-    EXPECT_EQ(file.triangles[order.triangles[i]], whole.triangles[i]);
-  for (std::size_t i = 0; i < whole.quads.size(); ++i) EXPECT_EQ(file.quads[order.quads[i]], whole.quads[i]);
-  Mesh again = scatter_mesh(world(), file, order);
+  const Mesh part = test::part_with_blocks(world(), file, own_order(file));
+  const PartOrder order = order_by_runs(world(), part, runs);
+  const EvenShare triangles(world(), std::ssize(whole.triangles)), quads(world(), std::ssize(whole.quads));
+  ASSERT_EQ(std::ssize(order.triangles), triangles.size());
+  for (std::int64_t i = 0; i < triangles.size(); ++i)
+    EXPECT_EQ(file.triangles[order.triangles[i]], whole.triangles[triangles.begin + i]);
+  for (std::int64_t i = 0; i < quads.size(); ++i)
+    EXPECT_EQ(file.quads[order.quads[i]], whole.quads[quads.begin + i]);
+  Mesh again = ReorderedMesh(world(), part, order).mesh(part);
   set_blocks(world(), whole.blocks.names, runs, again);
   EXPECT_EQ(again.triangles, mesh.triangles);
   EXPECT_EQ(again.quads, mesh.quads);
@@ -113,10 +117,11 @@ TEST(BlockRuns, RefuseBlocksOfOtherSizes) {
   const std::vector<BlockRun> runs = block_runs(world(), mesh);
   Mesh other = by_block(whole);
   other.blocks.of_quads.back() = 0;
-  EXPECT_THROW(order_by_runs(other, runs), InputError);
+  EXPECT_THROW(order_by_runs(world(), test::part_with_blocks(world(), other, own_order(other)), runs),
+               InputError);
   std::vector<BlockRun> longer = runs;
   longer.back().cells += 1;
-  EXPECT_THROW(order_by_runs(whole, longer), InputError);
+  EXPECT_THROW(order_by_runs(world(), mesh, longer), InputError);
   EXPECT_TRUE(block_runs(world(), scatter_mesh(world(), whole, own_order(whole))).empty());
 }
 

@@ -191,10 +191,10 @@ TEST(ShapeStatistics, AreaRatioOf99Percent) {
   EXPECT_EQ(hundred_edges.area_ratio_p99, 1);
   EXPECT_EQ(few.area_ratio_p99, 3);  // one edge of 98 is more than 1 percent
   EXPECT_EQ(few.quad_share, 1);
-  const AreaRatios alone = area_ratios(strip(100));
+  const AreaRatios alone = area_ratios(Communicator(MPI_COMM_SELF), strip(100));
   EXPECT_EQ(alone.largest, 3);
   EXPECT_EQ(alone.of_99_percent, 1);
-  EXPECT_EQ(area_ratios(strip(0)).largest, 0);  // no inner edge
+  EXPECT_EQ(area_ratios(Communicator(MPI_COMM_SELF), strip(0)).largest, 0);  // no inner edge
 }
 
 TEST(ShapeStatistics, CellWithoutArea) {

@@ -82,7 +82,7 @@ std::int64_t count_parallelograms(const Mesh& mesh) {
 
 void expect_statistics_of_whole(const Mesh& whole) {
   const std::int64_t inexact = count_inexact(whole), parallel = count_parallelograms(whole);
-  const double ratio = area_ratios(whole).largest;
+  const double ratio = area_ratios(Communicator(MPI_COMM_SELF), whole).largest;
   for (const MeshOrder& order : {space_filling_order(whole), test::shuffled_order(whole, 5)}) {
     const SolverStatistics statistics = solver_statistics(world(), scatter_mesh(world(), whole, order));
     EXPECT_EQ(statistics.inexact_nodes, inexact);

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstddef>
+#include <cstring>
+#include <span>
+#include <vector>
+
+#include "io/files/reading/value_pipe.hpp"
+#include "mesher/base/error.hpp"
+#include "mesher/base/parallel/communicator.hpp"
+
+namespace quadloop::io {
+
+/// Values as bytes in memory, for pass().
+class PackedWriter {
+ public:
+  static constexpr bool reads = false;
+
+  void bytes(const void* from, std::size_t size) {
+    const auto* const begin = static_cast<const std::byte*>(from);
+    packed.insert(packed.end(), begin, begin + size);
+  }
+
+  std::vector<std::byte> packed;
+};
+
+class PackedReader {
+ public:
+  static constexpr bool reads = true;
+
+  explicit PackedReader(std::span<const std::byte> packed) : packed_{packed} {}
+
+  void bytes(void* to, std::size_t size) {
+    QUADLOOP_REQUIRE(size <= packed_.size(), "packed values end early", size);
+    if (size > 0) std::memcpy(to, packed_.data(), size);
+    packed_ = packed_.subspan(size);
+  }
+
+ private:
+  std::span<const std::byte> packed_;
+};
+
+/// Lets the ranks continue the work on a value one after another, in their order: `work(value)`, which should
+/// be short and must not throw. The value before, which is used on the first rank only, is the same type's
+/// default. Returns the last rank's result on all ranks. *Collective.*
+template <class Value, class Work>
+Value relay(const Communicator& comm, const Work& work) {
+  const auto unpacked = [](std::span<const std::byte> bytes) {
+    Value value{};
+    PackedReader reader(bytes);
+    pass(reader, value);
+    return value;
+  };
+  const int last = comm.size() - 1;
+  Value value = comm.is_root() ? Value{} : unpacked(comm.receive_bytes(comm.rank() - 1));
+  work(value);
+  if (last == 0) return value;
+  PackedWriter writer;
+  pass(writer, value);
+  if (comm.rank() < last) comm.send_bytes(writer.packed, comm.rank() + 1);
+  comm.broadcast(writer.packed, last);
+  return comm.rank() == last ? std::move(value) : unpacked(writer.packed);
+}
+
+}  // namespace quadloop::io

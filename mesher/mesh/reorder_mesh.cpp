@@ -1,0 +1,287 @@
+#include "mesher/mesh/reorder_mesh.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <compare>
+#include <utility>
+
+#include "mesher/base/morton.hpp"
+#include "mesher/base/parallel/even_shares.hpp"
+#include "mesher/mesh/box_over_ranks.hpp"
+#include "mesher/mesh/node_exchange.hpp"
+#include "mesher/mesh/node_table.hpp"
+#include "mesher/mesh/part_builder.hpp"
+
+namespace quadloop {
+
+namespace {
+
+/// A number for each node of this rank's mesh, ghosts included.
+using NewNumbers = std::vector<std::int64_t>;
+
+struct Keyed {
+  std::uint64_t key;
+  std::int64_t item;
+  friend auto operator<=>(const Keyed&, const Keyed&) = default;
+};
+
+/// Returns the lowest of the keys on each rank but the first, after sorting: approximately, from samples.
+std::vector<Keyed> splitters(const Communicator& comm, const std::vector<Keyed>& sorted) {
+  constexpr std::size_t most_samples = 64;
+  std::vector<Keyed> samples;
+  const std::size_t count = std::min(sorted.size(), most_samples);
+  for (std::size_t i = 0; i < count; ++i) samples.push_back(sorted[sorted.size() * i / count]);
+  samples = comm.all_gather_values(std::span<const Keyed>(samples));
+  std::ranges::sort(samples);
+  std::vector<Keyed> lowest;
+  for (int rank = 1; rank < comm.size() && !samples.empty(); ++rank)
+    lowest.push_back(samples[samples.size() * rank / comm.size()]);
+  return lowest;
+}
+
+/// Sorts items of all ranks by their keys, then by their numbers; returns this rank's even share of them.
+/// *Collective.*
+std::vector<std::int64_t> sorted_items(const Communicator& comm, std::vector<Keyed> items) {
+  std::ranges::sort(items);
+  if (comm.size() > 1) {
+    const std::vector<Keyed> lowest = splitters(comm, items);
+    std::vector<int> ranks;
+    ranks.reserve(items.size());
+    for (int rank = 0; const Keyed& item : items) {
+      while (rank < std::ssize(lowest) && item >= lowest[rank]) ++rank;
+      ranks.push_back(rank);
+    }
+    items = Exchange(comm, ranks).deliver(items);
+    std::ranges::sort(items);
+  }
+  std::vector<std::int64_t> numbers;
+  numbers.reserve(items.size());
+  for (const Keyed& item : items) numbers.push_back(item.item);
+  items = {};
+  return in_even_shares(comm, std::move(numbers));
+}
+
+/// Returns the nodes along a space-filling curve over the mesh's bounding box. *Collective.*
+std::vector<std::int64_t> nodes_along_curve(const Communicator& comm, const Mesh& mesh) {
+  const Box box = box_over_ranks(comm, mesh.points);
+  const double side = std::max(box.width(), box.height());
+  constexpr double steps = (std::uint64_t{1} << 31) - 1;
+  const auto step = [&](double at, double low) {
+    return static_cast<std::uint32_t>(side > 0 ? (at - low) / side * steps : 0);
+  };
+  std::vector<Keyed> keys;
+  keys.reserve(mesh.owned_nodes);
+  for (std::int32_t i = 0; i < mesh.owned_nodes; ++i) {
+    const Point p = mesh.points[i];
+    keys.push_back({morton_key(step(p.x, box.low.x), step(p.y, box.low.y)), mesh.first_node + i});
+  }
+  return sorted_items(comm, std::move(keys));
+}
+
+/// Returns the new numbers of a mesh's nodes. `nodes` moves these to the new order. *Collective.*
+NewNumbers new_numbers(const Communicator& comm, const Mesh& mesh, const RowMove& nodes, std::size_t moved) {
+  std::vector<std::int64_t> own(moved);
+  std::int64_t next = comm.exclusive_sum(static_cast<std::int64_t>(moved));
+  for (std::int64_t& number : own) number = next++;
+  NewNumbers numbers = nodes.back(own);
+  numbers.resize(mesh.points.size());
+  const NodeOwners owners(comm, mesh.first_node);
+  NodeExchange(comm, owners, mesh.owned_nodes, mesh.ghosts).update(numbers);
+  return numbers;
+}
+
+NewNumbers own_numbers(const Mesh& mesh) {
+  NewNumbers numbers;
+  for (const NodeId node : ids_below(NodeId{size32(mesh.points)}))
+    numbers.push_back(mesh.global(node).value());
+  return numbers;
+}
+
+/// Returns the cells in the order of their first node. *Collective.*
+template <std::size_t width>
+std::vector<std::int64_t> ordered_cells(const Communicator& comm,
+                                        const std::vector<std::array<NodeId, width>>& cells,
+                                        const NewNumbers& numbers) {
+  std::int64_t number = comm.exclusive_sum(std::ssize(cells));
+  std::vector<Keyed> keys;
+  keys.reserve(cells.size());
+  for (const auto& nodes : cells) {
+    std::int64_t least = numbers[nodes[0].value()];
+    for (const NodeId node : nodes) least = std::min(least, numbers[node.value()]);
+    keys.push_back({static_cast<std::uint64_t>(least), number++});
+  }
+  return sorted_items(comm, std::move(keys));
+}
+
+/// Measures how far apart the node numbers of cells are, as a sum of powers of two: small if neighbours have
+/// close numbers.
+std::int64_t spread(const Mesh& mesh, const NewNumbers& numbers) {
+  std::int64_t sum = 0;
+  mesh.for_each_cell([&](const auto& nodes) {
+    std::int64_t least = numbers[nodes[0].value()], largest = least;
+    for (const NodeId node : nodes) {
+      least = std::min(least, numbers[node.value()]);
+      largest = std::max(largest, numbers[node.value()]);
+    }
+    sum += std::bit_width(static_cast<std::uint64_t>(largest - least));
+  });
+  return sum;
+}
+
+PartOrder order_along(const Communicator& comm, const Mesh& mesh, std::vector<std::int64_t> nodes,
+                      const NewNumbers& numbers) {
+  return {std::move(nodes), ordered_cells(comm, mesh.triangles, numbers),
+          ordered_cells(comm, mesh.quads, numbers)};
+}
+
+NewNumbers numbers_along(const Communicator& comm, const Mesh& mesh, std::span<const std::int64_t> nodes) {
+  return new_numbers(comm, mesh, RowMove(comm, mesh.first_node, nodes), nodes.size());
+}
+
+/// Returns the new numbers of nodes, which are the same list on all ranks. *Collective.*
+std::vector<GlobalNodeId> numbers_of(const Communicator& comm, const Mesh& mesh, const NewNumbers& numbers,
+                                     const std::vector<GlobalNodeId>& nodes) {
+  struct Found {
+    std::int64_t index, number;
+  };
+  std::vector<Found> own;
+  for (std::int64_t i = 0; i < std::ssize(nodes); ++i) {
+    const std::int64_t local = nodes[i].value() - mesh.first_node;
+    if (0 <= local && local < mesh.owned_nodes) own.push_back({i, numbers[local]});
+  }
+  std::vector<GlobalNodeId> found(nodes.size());
+  for (const auto& [index, number] : comm.all_gather_values(std::span<const Found>(own)))
+    found[index] = GlobalNodeId{number};
+  return found;
+}
+
+template <std::size_t width>
+std::array<GlobalNodeId, width> numbered(const std::array<NodeId, width>& nodes, const NewNumbers& numbers) {
+  std::array<GlobalNodeId, width> result;
+  for (std::size_t k = 0; k < width; ++k) result[k] = GlobalNodeId{numbers[nodes[k].value()]};
+  return result;
+}
+
+/// Moves cells to the new order. *Collective.*
+template <std::size_t width>
+void move_cells(const RowMove& move, const std::vector<std::array<NodeId, width>>& cells,
+                const NewNumbers& numbers, PartBuilder& builder, std::vector<std::array<NodeId, width>>& to) {
+  std::vector<std::array<GlobalNodeId, width>> rows;
+  rows.reserve(move.leaving().size());
+  for (const std::int32_t cell : move.leaving()) rows.push_back(numbered(cells[cell], numbers));
+  rows = move.forth_from(rows);
+  to.reserve(rows.size());
+  builder.append(std::span<const std::array<GlobalNodeId, width>>(rows), to);
+}
+
+template <std::size_t width>
+void move_cells_back(const RowMove& move, const std::vector<std::array<NodeId, width>>& changed,
+                     const NewNumbers& numbers, NodeTable& table,
+                     std::vector<std::array<NodeId, width>>& old) {
+  std::vector<std::array<GlobalNodeId, width>> rows;
+  rows.reserve(changed.size());
+  for (const auto& nodes : changed) rows.push_back(numbered(nodes, numbers));
+  rows = move.back(rows);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    for (std::size_t k = 0; k < width; ++k) old[i][k] = table.local(rows[i][k], {});
+  }
+}
+
+template <class T>
+void append(std::vector<T> more, std::vector<T>& all) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
+}  // namespace
+
+PartOrder space_filling_order(const Communicator& comm, const Mesh& mesh) {
+  std::vector<std::int64_t> nodes = nodes_along_curve(comm, mesh);
+  const NewNumbers numbers = numbers_along(comm, mesh, nodes);
+  return order_along(comm, mesh, std::move(nodes), numbers);
+}
+
+PartOrder own_order(const Communicator& comm, const Mesh& mesh) {
+  const auto share = [&](std::int64_t count) {
+    const EvenShare own(comm, comm.sum(count));
+    std::vector<std::int64_t> numbers(own.size());
+    for (std::int64_t i = 0; i < own.size(); ++i) numbers[i] = own.begin + i;
+    return numbers;
+  };
+  return {share(mesh.owned_nodes), share(std::ssize(mesh.triangles)), share(std::ssize(mesh.quads))};
+}
+
+PartOrder order_for_parts(const Communicator& comm, const Mesh& mesh) {
+  std::vector<std::int64_t> nodes = nodes_along_curve(comm, mesh);
+  const NewNumbers numbers = numbers_along(comm, mesh, nodes);
+  const std::int64_t of_curve = comm.sum(spread(mesh, numbers)),
+                     own = comm.sum(spread(mesh, own_numbers(mesh)));
+  return 4 * own <= 5 * of_curve ? own_order(comm, mesh) : order_along(comm, mesh, std::move(nodes), numbers);
+}
+
+ReorderedMesh::ReorderedMesh(const Communicator& comm, const Mesh& mesh, PartOrder order)
+    : comm_{comm},
+      order_{std::move(order)},
+      nodes_{comm, mesh.first_node, order_.nodes},
+      triangles_{comm, comm.exclusive_sum(std::ssize(mesh.triangles)), order_.triangles},
+      quads_{comm, comm.exclusive_sum(std::ssize(mesh.quads)), order_.quads} {}
+
+Mesh ReorderedMesh::mesh(const Mesh& old) const {
+  const NewNumbers numbers = new_numbers(comm_, old, nodes_, order_.nodes.size());
+  PartBuilder builder(comm_, nodes_.forth(std::span(old.points).first(old.owned_nodes)));
+  Mesh& part = builder.part();
+  move_cells(triangles_, old.triangles, numbers, builder, part.triangles);
+  move_cells(quads_, old.quads, numbers, builder, part.quads);
+  for (const BoundaryEdges& boundary : old.boundaries) {
+    BoundaryEdges& moved = part.boundaries.emplace_back(boundary);
+    for (auto& edge : moved.edges) edge = builder.local(numbered(edge, numbers));
+  }
+  part.strips = old.strips;
+  for (StripLayers& strip : part.strips) strip.nodes = numbers_of(comm_, old, numbers, strip.nodes);
+  part.pairs = old.pairs;
+  part.named_nodes = old.named_nodes;
+  for (NamedNode& named : part.named_nodes) named.node = numbers_of(comm_, old, numbers, {named.node})[0];
+  return builder.finish(comm_);
+}
+
+MeshBlocks ReorderedMesh::blocks(const MeshBlocks& old) const {
+  if (old.names.empty()) return {};
+  return {old.names, triangles_.forth(old.of_triangles), quads_.forth(old.of_quads)};
+}
+
+Field ReorderedMesh::field(const Field& old) const {
+  Field field{old.names, nodes_.forth(old.values, old.width()), old.constants, {old.cells.names, {}}};
+  const std::size_t width = old.cells.width(), middle = triangles_.leaving().size() * width;
+  if (width == 0) return field;
+  const std::span<const double> values(old.cells.values);
+  field.cells.values = triangles_.forth(values.first(middle), width);
+  append(quads_.forth(values.subspan(middle), width), field.cells.values);
+  return field;
+}
+
+void ReorderedMesh::put_back(const Mesh& changed, Mesh& old) const {
+  NewNumbers numbers = order_.nodes;
+  numbers.resize(changed.points.size());
+  NodeExchange(comm_, NodeOwners(comm_, changed.first_node), changed.owned_nodes, changed.ghosts)
+      .update(numbers);
+  const std::vector<Point> points = nodes_.back(std::span(changed.points).first(changed.owned_nodes));
+  std::ranges::copy(points, old.points.begin());
+  NodeTable table(old);
+  move_cells_back(triangles_, changed.triangles, numbers, table, old.triangles);
+  move_cells_back(quads_, changed.quads, numbers, table, old.quads);
+  NodeExchange(comm_, NodeOwners(comm_, old.first_node), old.owned_nodes, old.ghosts).update(old.points);
+}
+
+Field ReorderedMesh::field_back(const Field& changed) const {
+  Field field{changed.names,
+              nodes_.back(changed.values, changed.width()),
+              changed.constants,
+              {changed.cells.names, {}}};
+  const std::size_t width = changed.cells.width(), middle = order_.triangles.size() * width;
+  if (width == 0) return field;
+  const std::span<const double> values(changed.cells.values);
+  field.cells.values = triangles_.back(values.first(middle), width);
+  append(quads_.back(values.subspan(middle), width), field.cells.values);
+  return field;
+}
+
+}  // namespace quadloop
