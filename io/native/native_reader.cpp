@@ -66,10 +66,10 @@ class NativeReader {
 
   /// Reads this rank's numbers, up to an error. That in the layout may come after one in the rows.
   void read_rows() {
+    make_room();
     for (const NativeSection& section : layout_.sections) {
-      const std::int64_t begin = std::max(section.first_token, tokens_.begin()),
-                         end = std::min(section.end_token(), tokens_.end());
-      if (begin >= end) continue;
+      const auto [begin, end] = own_tokens(section);
+      if (begin == end) continue;
       tokens_.go_to(begin);
       const bool sound =
           is_of_nodes(section.array) ? read_nodes(section, begin, end) : read_reals(section, begin, end);
@@ -77,9 +77,31 @@ class NativeReader {
     }
   }
 
+  struct TokenRange {
+    std::int64_t begin, end;
+  };
+  /// This rank's tokens of a section.
+  TokenRange own_tokens(const NativeSection& section) const {
+    const std::int64_t begin = std::max(section.first_token, tokens_.begin());
+    return {begin, std::max(begin, std::min(section.end_token(), tokens_.end()))};
+  }
+
+  void make_room() {
+    std::array<std::int64_t, native_arrays> counts{};
+    for (const NativeSection& section : layout_.sections) {
+      const auto [begin, end] = own_tokens(section);
+      counts[static_cast<std::size_t>(section.array)] += end - begin;
+    }
+    for (std::size_t array = 0; array < native_arrays; ++array) {
+      if (is_of_nodes(static_cast<NativeArray>(array)))
+        nodes_[array].reserve(counts[array]);
+      else
+        reals_[array].reserve(counts[array]);
+    }
+  }
+
   bool read_nodes(const NativeSection& section, std::int64_t begin, std::int64_t end) {
     std::vector<GlobalNodeId>& numbers = nodes_[static_cast<std::size_t>(section.array)];
-    numbers.reserve(numbers.size() + end - begin);
     for (std::int64_t i = begin; i < end; ++i) {
       const std::string_view token = tokens_.next();
       std::int64_t node = 0;
@@ -95,7 +117,6 @@ class NativeReader {
 
   bool read_reals(const NativeSection& section, std::int64_t begin, std::int64_t end) {
     std::vector<double>& values = reals_[static_cast<std::size_t>(section.array)];
-    values.reserve(values.size() + end - begin);
     for (std::int64_t i = begin; i < end; ++i) {
       const std::string_view token = tokens_.next();
       double value = 0;

@@ -119,7 +119,7 @@ CASES = [
     case_file("metric and mirror", CASE + "[mesh]\ntype = \"metric\"\nmirror = \"x\"\n", "case.toml:8:", "half"),
     case_file("root too small", CASE + "[mesh]\nroot = [0, 0, 2, 1, 1]\n", "root"),
     case_file("min too small for the tree", CASE.replace("0.25", "1e-12"), "min"),
-    case_file("unknown format", CASE + "[output]\nformats = [\"xyz\"]\n", "case.toml:7:", "xyz", "vtu, pvtu, su2, fluent.msh, msh"),
+    case_file("unknown format", CASE + "[output]\nformats = [\"xyz\"]\n", "case.toml:7:", "xyz", "vtu, pvtu, vtkhdf, su2, fluent.msh, msh"),
     case_file("prefix with a suffix", CASE + "[output]\nprefix = \"a.cgns\"\n", "case.toml:7:", "without .cgns"),
     case_file("pattern without quotes", CASE + "[boundary.is_*]\n", "case.toml:6:", "quote it"),
     case_file("text without quotes", CASE + "[boundary.box]\nbc = wall\n", "case.toml:7:", "put text in quotes: \"wall\""),
