@@ -25,23 +25,37 @@ namespace quadloop::python {
 namespace {
 
 /// The communicators that were passed, by their Fortran handle. MPI is initialised with the first one if
-/// nobody has done it, and then finalised by finish().
+/// nobody has done it, and then finalised by finish(). A communicator that its owner frees is forgotten, as
+/// another one may get its handle.
 class Communicators {
  public:
   std::shared_ptr<const Communicator> of(std::optional<MPI_Fint> handle) {
     initialise();
     std::shared_ptr<const Communicator>& known = known_[handle];
-    if (!known) known = std::make_shared<const Communicator>(handle ? MPI_Comm_f2c(*handle) : MPI_COMM_SELF);
+    if (known) return known;
+    known = std::make_shared<const Communicator>(handle ? MPI_Comm_f2c(*handle) : MPI_COMM_SELF);
+    if (handle) watch(*handle);
+    numbers_[known.get()].own = static_cast<std::int64_t>(numbers_.size());
+    all_.push_back(known);
     return known;
   }
+  /// A number that no other communicator of this process has.
+  std::int64_t number(const Communicator& comm) { return numbers_[&comm].own; }
+  std::int64_t next_number(const Communicator& comm) { return numbers_[&comm].given++; }
   void finish() {
     int finalised = 0;
     MPI_Finalized(&finalised);
-    if (finalised == 0) known_.clear();
-    if (finalised == 0 && initialised_here_) MPI_Finalize();
+    if (finalised != 0) return;
+    known_.clear();
+    all_.clear();
+    if (initialised_here_) MPI_Finalize();
   }
 
  private:
+  struct Numbers {
+    std::int64_t own = 0, given = 0;
+  };
+
   void initialise() {
     int initialised = 0;
     MPI_Initialized(&initialised);
@@ -51,8 +65,21 @@ class Communicators {
     MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &provided);
     initialised_here_ = true;
   }
+  /// An attribute of the communicator tells when it is freed.
+  void watch(MPI_Fint handle) {
+    if (key_ == MPI_KEYVAL_INVALID)
+      MPI_Comm_create_keyval(MPI_COMM_NULL_COPY_FN, &Communicators::forget, &key_, this);
+    MPI_Comm_set_attr(MPI_Comm_f2c(handle), key_, nullptr);
+  }
+  static int forget(MPI_Comm comm, int /*key*/, void* /*value*/, void* self) {
+    static_cast<Communicators*>(self)->known_.erase(MPI_Comm_c2f(comm));
+    return MPI_SUCCESS;
+  }
 
   std::map<std::optional<MPI_Fint>, std::shared_ptr<const Communicator>> known_;
+  std::vector<std::shared_ptr<const Communicator>> all_;  ///< until the end, as meshes may use them
+  std::map<const Communicator*, Numbers> numbers_;
+  int key_ = MPI_KEYVAL_INVALID;
   bool initialised_here_ = false;
 };
 
@@ -192,6 +219,12 @@ void add_communicator(py::module_& module) {
       .def(py::init([](std::optional<MPI_Fint> handle) { return CoreCommunicator{communicator_of(handle)}; }))
       .def_property_readonly("rank", [](const CoreCommunicator& self) { return self.comm->rank(); })
       .def_property_readonly("size", [](const CoreCommunicator& self) { return self.comm->size(); })
+      .def_property_readonly("number",
+                             [](const CoreCommunicator& self) { return communicators().number(*self.comm); })
+      .def("is_same", [](const CoreCommunicator& self,
+                         const CoreCommunicator& other) { return self.comm == other.comm; })
+      .def("next_number",
+           [](const CoreCommunicator& self) { return communicators().next_number(*self.comm); })
       .def(
           "maximum", [](const CoreCommunicator& self, double value) { return self.comm->maximum(value); },
           Released())

@@ -30,11 +30,13 @@ py::dict functionals_of(const SolvedFlow& flow) {
 /// The solution as tables, the results as a dictionary. *Collective.*
 py::tuple solve(const CoreCase& of, const CoreMesh& mesh, const py::tuple& start) {
   const Field state = field_of(*mesh.mesh, python_field_from(start));
-  SolvedFlow flow;
-  {
-    const py::gil_scoped_release released;
-    flow = built_in_solver(*mesh.comm, *of.of)(*mesh.comm, *mesh.mesh, state, -1);
-  }
+  StageReports signals{py::none()};
+  const ProgressCallback check = signals.callback();
+  const SolvedFlow flow = signals.watch([&] {
+    const progress::Observed observed(
+        *mesh.comm, [&](const std::string& stage, double share) { check({.stage = stage, .share = share}); });
+    return built_in_solver(*mesh.comm, *of.of)(*mesh.comm, *mesh.mesh, state, -1);
+  });
   py::dict results, forces;
   for (const BoundaryForce& force : flow.forces)
     forces[py::str(force.boundary)] = py::make_tuple(force.cl, force.cd);

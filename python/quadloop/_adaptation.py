@@ -10,7 +10,7 @@ import numpy as np
 
 from . import _core
 from ._cases import Case
-from ._common import collective, communicator_of, reporter, require, users_function, warn
+from ._common import collective, communicator_of, path_of, reporter, require, users_function, warn
 from ._core import InputError
 from ._meshes import Mesh, rows_of, solution_of
 
@@ -63,14 +63,16 @@ class TransferMap:
     """
 
     def __init__(self, old: Mesh, new: Mesh):
-        with collective(require(old, Mesh, "old")._core.comm, "TransferMap()"):
-            require(new, Mesh, "new")
+        with require(old, Mesh, "old")._collective("TransferMap()") as call:
+            if not require(new, Mesh, "new")._core.comm.is_same(old._core.comm):
+                raise InputError("the two meshes have different communicators")
+            call.same(number_of_the_new_mesh=new._number)
         core = _core.TransferMap(old._core, new._core)
         self._core, self._old = core, old
         self.nodes, self.weights, self.same, self.cells = core.nodes, core.weights, core.same, core.same_cells
 
     def _mapped(self, values, name: str):
-        with collective(self._old._core.comm, f"TransferMap.{name}()") as call:
+        with self._old._collective(f"TransferMap.{name}()") as call:
             array = np.asarray(values, dtype=float)
             if array.ndim not in (1, 2) or len(array) not in (self._old.owned, len(self._old.points)):
                 raise InputError(f"values have a row for each of the {self._old.owned} owned nodes of the old mesh, not the shape {array.shape}")
@@ -113,16 +115,17 @@ def adapt(case: Case, solve=None, comm=None, folder=None, resume: bool = False, 
             raise InputError("resume=True needs the folder of the run" if resume else "folder is empty; use None to write no files")
         if keys_of_adapt:
             case = require(case, Case, "case").changed(adapt=keys_of_adapt)
-        options = "" if folder is None else os.fspath(folder), bool(resume), solve is None
+        options = "" if folder is None else path_of(folder), bool(resume), solve is None
         report, transferred = reporter(progress), _transfer_of(transfer)
         require(case, Case, "case")._meet(call, comm)
         call.same(folder=options[0], resume=options[1], solver_of_the_case=options[2], transfer_of_the_case=transfer is None)
-    return _cycles(_core.Adaptation(case._core(comm), *options, report, transferred), solve, ranks)
+    return _cycles(_core.Adaptation(case._core(comm), *options, report, transferred), solve, ranks, ranks.next_number())
 
 
-def _cycles(run, solve, ranks: _core.Communicator) -> Iterator[AdaptationCycle]:
+def _cycles(run, solve, ranks: _core.Communicator, number: int) -> Iterator[AdaptationCycle]:
+    """The cycles of a run; its number is the same on all ranks."""
     try:
-        while _has_cycle(run, ranks):
+        while _has_cycle(run, ranks, number):
             mesh_of_cycle = Mesh(run.mesh())
             record, messages = run.solve_cycle() if solve is None else run.finish_cycle(_solved(run, mesh_of_cycle, solve))
             warn(messages, ranks.rank)
@@ -133,8 +136,8 @@ def _cycles(run, solve, ranks: _core.Communicator) -> Iterator[AdaptationCycle]:
         run.close()
 
 
-def _has_cycle(run, ranks: _core.Communicator) -> bool:
-    with collective(ranks, "a cycle of adapt()"):
+def _has_cycle(run, ranks: _core.Communicator, number: int) -> bool:
+    with collective(ranks, "a cycle of adapt()", number_of_the_run=number):
         pass
     return run.begin_cycle()
 
@@ -166,6 +169,7 @@ def _solved(run, mesh: Mesh, solve):
     """The solution of the user's function, the same variables on all ranks."""
     start = solution_of(run.initial_state()) or None
     with users_function(mesh._core.comm, "solve()") as call:
-        rows = rows_of(mesh, solve(mesh, start))
-        call.same(variables=(rows[0], rows[2]))
-    return rows
+        made = solve(mesh, start)
+        if made is None:
+            raise InputError("solve() returned None; it returns a dictionary of arrays by variable")
+        return mesh._rows(call, made)

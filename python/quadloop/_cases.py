@@ -156,20 +156,25 @@ class Case:
 
     def _meet(self, call: collective, comm):
         """The case must be the same on all ranks, and be prepared for a communicator on all or on none of them."""
-        call.same(case=(self._file, self.toml), first_use_of_the_case=handle_of(comm) not in self._cores)
+        call.same(case=(self._file, self.toml), first_use_of_the_case=_number_of(comm) not in self._cores)
 
     def _core(self, comm):
         """The case of the library, for a communicator. The first time collective."""
-        handle = handle_of(comm)
-        if handle not in self._cores:
+        handle, number = handle_of(comm), _number_of(comm)
+        if number not in self._cores:
             if self._file is None:
                 core = _core.Case("case", self.toml, [], handle)
             else:
                 core = _core.Case(self._file, None, _assignments(self._tables), handle)
             if not self._cores:
                 warn([message for message in core.warnings if message not in self._told], level=5)
-            self._cores[handle] = core
-        return self._cores[handle]
+            self._cores[number] = core
+        return self._cores[number]
+
+
+def _number_of(comm) -> int | None:
+    """A number of the communicator that no later one has, unlike its handle; None for this process alone."""
+    return None if comm is None else _core.Communicator(handle_of(comm)).number
 
 
 def _case_of(file, tables, outlines) -> Case:

@@ -1,8 +1,10 @@
 """Warnings, communicators, and checks of arguments."""
 from __future__ import annotations
 
+import contextlib
 import dataclasses
 import logging
+import os
 import traceback
 import warnings
 
@@ -50,9 +52,10 @@ class QuadloopWarning(UserWarning):
 
 
 def warn(messages, rank=0, level=3):
-    """Warnings are the same on all ranks: the first one shows them."""
-    for message in messages if rank == 0 else []:
-        warnings.warn(message, QuadloopWarning, stacklevel=level)
+    """Warnings are the same on all ranks. The first one shows them; where they are errors, they are so on all."""
+    with contextlib.nullcontext() if rank == 0 else warnings.catch_warnings(record=True):
+        for message in messages:
+            warnings.warn(message, QuadloopWarning, stacklevel=level)
 
 
 def handle_of(comm):
@@ -76,8 +79,10 @@ class collective:
     """
     in_progress = 0  # functions of the user for progress that run now: on other ranks the library works
 
-    def __init__(self, comm: _core.Communicator, call: str, waits: bool = False):
-        self._comm, self._call, self._waits, self._same = comm, call, waits, []
+    def __init__(self, comm: _core.Communicator, call: str, waits: bool = False, **same):
+        self._comm, self._call, self._waits = comm, call, waits
+        self._same: list = []
+        self.same(**same)
         if comm.size > 1 and collective.in_progress:
             raise InputError(f"{call} is collective and cannot be called in a function for progress")
 
@@ -91,10 +96,10 @@ class collective:
     def __exit__(self, kind, error, trace) -> bool:
         text, failure = "", _core.Failure.none
         if getattr(error, "_of_ranks", False):
-            text, failure = str(error), _core.Failure.input if isinstance(error, InputError) else _core.Failure.of_other_rank
+            text, failure = _text_of(error), _core.Failure.input if isinstance(error, InputError) else _core.Failure.of_other_rank
         elif error is not None:
             is_input = isinstance(error, InputError)
-            text, failure = f"rank {self._comm.rank}: {'' if is_input else kind.__name__ + ': '}{error}", _core.Failure.input if is_input else _core.Failure.other
+            text, failure = f"rank {self._comm.rank}: {'' if is_input else kind.__name__ + ': '}{_text_of(error)}", _core.Failure.input if is_input else _core.Failure.other
         try:
             self._comm.meet(self._call, self._same, self._waits, failure, text)
         except (InputError, SolverError) as raised:
@@ -102,6 +107,15 @@ class collective:
                 raised._of_ranks = True  # type: ignore[union-attr]
                 raise
         return False
+
+
+def _text_of(error: BaseException) -> str:
+    """The text of an exception, without what other ranks could not be told."""
+    try:
+        text = str(error)
+    except Exception:  # of the exception's own method
+        return "(without a text)"
+    return text.encode("utf-8", "backslashreplace").decode().replace("\0", "\\0")
 
 
 class users_function(collective):
@@ -120,6 +134,18 @@ class users_function(collective):
 def communicator_of(comm) -> _core.Communicator:
     """The communicator of the module over the library for one of mpi4py; None: this process alone."""
     return _core.Communicator(handle_of(comm))
+
+
+def path_of(path) -> str:
+    """A path as text that the library can use."""
+    text = os.fspath(path)
+    try:
+        if not isinstance(text, str) or "\0" in text:
+            raise ValueError
+        text.encode()
+    except ValueError:
+        raise InputError(f"a path is text in UTF-8 without zero bytes, not {text!r}") from None
+    return text
 
 
 def require(given, kind, what: str):

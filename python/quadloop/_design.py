@@ -40,7 +40,7 @@ class Morphed:
 
         The derivative of the node positions is exact. Raises InputError if the mesh was smoothed. On several ranks: collective.
         """
-        with collective(self.mesh._core.comm, "Morphed.push_forward()") as call:
+        with self.mesh._collective("Morphed.push_forward()") as call:
             unknown = set(require(velocities, Mapping, "velocities")) - set(self.outlines)
             if unknown:
                 raise InputError(f"'{unknown.pop()}' is no boundary that moves; these are {', '.join(self.outlines)}")
@@ -50,7 +50,7 @@ class Morphed:
 
     def pull_back(self, gradient) -> dict:
         """The transpose: from dJ/dX at the owned nodes, shape (owned, 2), to boundary -> dJ/d(points), shape (n, 2). On several ranks: collective."""
-        with collective(self.mesh._core.comm, "Morphed.pull_back()"):
+        with self.mesh._collective("Morphed.pull_back()"):
             rows = numbers_of(gradient, (self.mesh.owned, 2), "gradient at the owned nodes")
         return dict(zip(self.outlines, self._core.pull_back(rows)))
 
@@ -130,7 +130,7 @@ class Run:
         return self._morph(new, least)
 
     def _collective(self, call: str) -> collective:
-        return collective(self.mesh._core.comm, call)
+        return self.mesh._collective(call)
 
     def _points(self, call: collective, outlines: Mapping) -> dict:
         """New outlines as arrays, the same on all ranks."""
@@ -204,6 +204,8 @@ class Run:
         with self._collective("Run.verify()") as call:
             if not 0 < step < 0.01:
                 raise InputError(f"step is above 0 and below 0.01, not {step}")
+            if not isinstance(seed, (int, np.integer)):
+                raise InputError(f"seed is a whole number, not {seed!r}")
             call.same(step=float(step), seed=seed)
         random = np.random.default_rng(seed)
         here = self.morph(outlines)

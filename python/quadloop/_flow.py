@@ -6,8 +6,8 @@ from collections.abc import Mapping
 
 from . import _core
 from ._cases import Case
-from ._common import collective, require, warn
-from ._meshes import Mesh, rows_of, solution_of
+from ._common import require, warn
+from ._meshes import Mesh, solution_of
 
 
 @dataclasses.dataclass(frozen=True)
@@ -58,13 +58,12 @@ def solve(case: Case, mesh: Mesh, start: Mapping | None = None, **keys_of_solver
     drag_by_y; Morphed.pull_back() takes them as columns of an array. The bits are the same on any number of ranks; collective.
     Raises SolverError, with the place, if the state becomes unphysical.
     """
-    with collective(require(mesh, Mesh, "mesh")._core.comm, "solve()") as call:
+    with require(mesh, Mesh, "mesh")._collective("solve()") as call:
         require(case, Case, "case")
         if keys_of_solver:
             case = case.changed(solver=keys_of_solver)
         case._meet(call, None)
-        rows = rows_of(mesh, start)
-        call.same(variables_of_start=(rows[0], rows[2]))
+        rows = mesh._rows(call, start)
     tables, results = _core.solve(case._core(None), mesh._core, rows)
     warn(results["warnings"], mesh._core.comm.rank)
     functionals = {name: Functional(**entry) for name, entry in results.pop("functionals").items()}

@@ -2,14 +2,13 @@
 from __future__ import annotations
 
 import dataclasses
-import os
 from collections.abc import Mapping
 
 import numpy as np
 
 from . import _core
 from ._cases import Case, points_of
-from ._common import collective, communicator_of, handle_of, numbers_of, reporter, require, warn
+from ._common import collective, communicator_of, handle_of, numbers_of, path_of, reporter, require, warn
 from ._core import InputError
 
 
@@ -70,6 +69,7 @@ class Mesh:
 
     def __init__(self, core, warnings=()):
         self._core = core
+        self._number = core.comm.next_number()  # the same on all ranks
         self.warnings = list(warnings)
 
     points = property(lambda self: self._core.points)
@@ -120,12 +120,18 @@ class Mesh:
         solution  variable -> a value for each owned node, or for each cell (triangles, then quads)
         """
         with self._collective("Mesh.write()") as call:
-            path, rows = os.fspath(path), rows_of(self, solution)
+            path, rows = path_of(path), self._rows(call, solution)
             call.same(path=path)
         warn(self._core.write(path, rows), self._core.comm.rank)
 
     def _collective(self, call: str) -> collective:
-        return collective(self._core.comm, call)
+        return collective(self._core.comm, call, number_of_the_mesh=self._number)
+
+    def _rows(self, call: collective, solution) -> _core._Tables:
+        """A solution as tables, of the same variables on all ranks."""
+        rows = rows_of(self, solution)
+        call.same(variables=(rows[0], rows[2]))
+        return rows
 
     def _meet(self, call: str):
         with self._collective(call):
@@ -143,7 +149,7 @@ class Mesh:
         with self._collective("Mesh.extrude()") as call:
             if axis not in ("y", "z"):
                 raise InputError(f"axis is 'y' or 'z', not {axis!r}")
-            levels, path, rows = numbers_of(heights, (-1,), "heights").tolist(), os.fspath(path), rows_of(self, solution)
+            levels, path, rows = numbers_of(heights, (-1,), "heights").tolist(), path_of(path), self._rows(call, solution)
             call.same(path=path, heights=levels, axis=axis)
         warn(self._core.extrude(levels, path, rows, axis == "y"), self._core.comm.rank)
 
@@ -166,7 +172,7 @@ class Mesh:
         if not isinstance(size, (int, float, np.number)) or not 50 <= size <= 20000:
             raise InputError(f"size is a number of pixels from 50 to 20000, not {size!r}")
         call.same(field=field, size=float(size))
-        return rows_of(self, solution if field else None)
+        return self._rows(call, solution if field else None)
 
     def png(self, field: str = "", solution: Mapping | None = None, size: float = 800) -> bytes:
         """picture() as PNG."""
@@ -175,7 +181,7 @@ class Mesh:
     def plot(self, path, field: str = "", solution: Mapping | None = None, size: float = 800):
         """Writes picture() to a file: .png, .svg or .pdf. On several ranks: collective."""
         with self._collective("Mesh.plot()") as call:
-            path, rows = os.fspath(path), self._pictured(call, field, solution, size)
+            path, rows = path_of(path), self._pictured(call, field, solution, size)
             call.same(path=path)
         self._core.plot(path, field, rows, size)
 
@@ -264,7 +270,7 @@ def mesh(case: Case, comm=None, progress=None) -> Mesh:
 def read(path, comm=None) -> tuple:
     """A mesh from a file and its solution, a dictionary of arrays: (Mesh, solution). The suffix selects the format: .mesh, .cgns, .vtu, .su2, .msh."""
     with collective(communicator_of(comm), "read()") as call:
-        path = os.fspath(path)
+        path = path_of(path)
         call.same(path=path)
     core, field, messages = _core.read(path, handle_of(comm))
     warn(messages, core.comm.rank)
@@ -300,7 +306,11 @@ def from_meshio(given) -> Mesh:
 
 def smooth(case: Case, given: Mesh, comm=None, progress=None) -> Mesh:
     """A smoothed copy of a mesh of the case; boundary nodes slide along its geometry, layers stay. `progress` as in mesh(). On several ranks: collective."""
-    with collective(communicator_of(comm), "smooth()") as call:
-        report, before = reporter(progress), require(given, Mesh, "given")._core
+    ranks = communicator_of(comm)
+    with collective(ranks, "smooth()") as call:
+        report = reporter(progress)
+        if not require(given, Mesh, "given")._core.comm.is_same(ranks):
+            raise InputError("the mesh is on another communicator")
         require(case, Case, "case")._meet(call, comm)
-    return Mesh(case._core(comm).smoothed(before, report))
+        call.same(number_of_the_mesh=given._number)
+    return Mesh(case._core(comm).smoothed(given._core, report))

@@ -1,5 +1,8 @@
 """Three ranks: parts of the mesh, errors and wrong arguments on one rank, calls that differ between ranks. None may wait for ever."""
 import os
+import signal
+import threading
+import warnings
 
 import numpy as np
 from mpi4py import MPI
@@ -10,11 +13,12 @@ comm = MPI.COMM_WORLD
 CASE = ql.Case(outlines={"edge": [[0, 0], [1, 0], [1, 1], [0, 1]]}, spacing={"max": 0.05}, adapt={"cycles": 2, "variable": "u", "norm": 2, "max_nodes": 5000, "min": 0.005})
 
 
-def raised(kind, work):
+def raised(kind, work, text=True):
+    """The text of the error, or the error."""
     try:
         work()
     except kind as error:
-        return str(error)
+        return str(error) if text else error
     raise AssertionError(f"no {kind} on rank {comm.rank}")
 
 
@@ -101,6 +105,8 @@ def test_wrong_arguments_on_one_rank_are_refused_on_all():
     made, run = ql.mesh(CASE, comm=comm), ql.Run(CASE, comm=comm)
     between, square = ql.TransferMap(made, made), CASE._outlines["edge"][0].points
     solve = lambda mesh, start: {"u": np.zeros(mesh.owned)}
+    other, alone = ql.mesh(CASE.changed(spacing={"max": 0.1}), comm=comm), made.gathered()
+    loops = ql.adapt(CASE, solve, comm=comm), ql.adapt(CASE, solve, comm=comm)
     wrong = comm.rank == 1
     pick = lambda bad, good: bad if wrong else good
     calls = {
@@ -129,6 +135,15 @@ def test_wrong_arguments_on_one_rank_are_refused_on_all():
         "morph: quality": lambda: run.morph({"edge": square}, min_quality=pick(2, 0)),
         "verify: step": lambda: run.verify({"edge": square}, step=pick(1, 1e-6)),
         "evaluate: gradient": lambda: run.evaluate(gradient=pick("lift", "drag")),
+        "verify: seed": lambda: run.verify({"edge": square}, seed=pick(None, 0)),
+        "write: variables": lambda: made.write("a.vtu", {pick("v", "u"): np.zeros(made.owned)}),
+        "write: path with a zero": lambda: made.write(pick("a\0b.mesh", "a.mesh")),
+        "write: path that is not UTF-8": lambda: made.write(pick("a\udcff.mesh", "a.mesh")),
+        "another mesh": lambda: pick(other, made).check(),
+        "another mesh to smooth": lambda: ql.smooth(CASE, pick(other, made), comm=comm),
+        "a mesh of one rank to smooth": lambda: ql.smooth(CASE, pick(alone, made), comm=comm),
+        "a mesh of one rank in a map": lambda: ql.TransferMap(made, pick(alone, made)),
+        "another run": lambda: next(pick(*loops)),
         "another call": lambda: pick(made.check, made.gathered)(),
     }
     for name, call in calls.items():
@@ -137,6 +152,47 @@ def test_wrong_arguments_on_one_rank_are_refused_on_all():
         except BaseException as error:
             raise AssertionError(f"{name}: {error!r}") from error
     assert not os.path.exists("a.mesh")
+
+
+def test_errors_without_a_text_that_can_be_told():
+    class Silent(Exception):
+        def __str__(self):
+            raise RuntimeError
+    for error in (Silent(), ValueError("a\udcff\0b")):
+        def solve(mesh, start):
+            if comm.rank == 1:
+                raise error
+            return {"u": np.zeros(mesh.owned)}
+        message = raised(type(error) if comm.rank == 1 else ql.SolverError, lambda: next(ql.adapt(CASE, solve, comm=comm)), text=False)
+        assert comm.rank == 1 or f"rank 1: {type(error).__name__}" in str(message), message
+
+
+def test_warnings_that_are_errors_are_so_on_all_ranks():
+    few = CASE.changed(adapt={"max_nodes": 100})
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        raised(ql.QuadloopWarning, lambda: list(ql.adapt(few, lambda mesh, start: {"u": np.tanh(30 * (mesh.points[:, 0] - 0.4))}, comm=comm)))
+
+
+def test_a_communicator_whose_handle_is_used_again():
+    first = comm.Dup()
+    case = CASE.changed(spacing={"max": 0.1})
+    ql.mesh(case, comm=first)
+    first.Free()
+    second = comm.Split(comm.rank, 0)
+    assert ql.mesh(case, comm=second).owned == ql.mesh(case).owned
+    second.Free()
+
+
+def test_an_interrupt_of_the_flow_solver():
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    tunnel = ql.Case(outlines={"edge": [[0, 0], [1, 0], [1, 1], [0, 1]]}, spacing={"max": 0.02}, boundary={"edge": {"bc": "farfield"}},
+                     solver={"kind": "euler", "mach": 0.3, "iterations": 100000, "tolerance": 1e-300})
+    made = ql.mesh(tunnel, comm=comm)
+    start = {"density": 1 + 0.01 * made.points[:, 0], "x_velocity": 0 * made.points[:, 0], "y_velocity": 0 * made.points[:, 0], "pressure": 0.7 + 0 * made.points[:, 0]}
+    if comm.rank == 1:
+        threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+    raised(KeyboardInterrupt if comm.rank == 1 else ql.Cancelled, lambda: [ql.solve(tunnel, made, start) for _ in range(1000)])
 
 
 def test_no_collective_call_in_a_function_for_progress():
