@@ -24,12 +24,10 @@ py::array_t<Number> table_of_rows(const std::vector<std::array<GlobalNodeId, wid
   return table;
 }
 
-/// *Collective.*
+/// For two meshes on the same communicator. *Collective.*
 CoreMap map_between(const CoreMesh& old_mesh, const CoreMesh& new_mesh) {
-  if (old_mesh.comm != new_mesh.comm) throw InputError("the two meshes have different communicators");
   const py::gil_scoped_release released;
-  return {old_mesh.comm, std::make_shared<const TransferMap>(*old_mesh.comm, *old_mesh.mesh, *new_mesh.mesh),
-          old_mesh.mesh->owned_nodes};
+  return {old_mesh.comm, std::make_shared<const TransferMap>(*old_mesh.comm, *old_mesh.mesh, *new_mesh.mesh)};
 }
 
 /// Rows of the map, or their weighted sums, from a table of values at the owned nodes of the old mesh.

@@ -51,7 +51,6 @@ CoreMesh core_mesh(const std::shared_ptr<const Communicator>& comm, std::shared_
 struct CoreMap {
   std::shared_ptr<const Communicator> comm;
   std::shared_ptr<const TransferMap> map;
-  std::int32_t old_nodes;  ///< owned by this rank
 };
 
 /// Reports the stages of calls to a function of Python, which may be None. Signals such as Ctrl-C take effect
