@@ -71,7 +71,7 @@ class collective:
     """Checks of a rank's arguments before a collective call of the library.
 
         with collective(comm, "Mesh.write()") as call:
-            path = os.fspath(path)
+            path = path_of(path)
             call.same(path=path)
 
     At the end of the block the ranks of the `_core.Communicator` meet. An exception in the block on one rank is raised there and, as InputError or

@@ -14,7 +14,7 @@ from ._core import InputError
 
 @dataclasses.dataclass(frozen=True)
 class Quality:
-    """Numbers of cells over all ranks, and the quality of their shapes: 1 for the best, 0 for a degenerate cell. Angles in degrees."""
+    """Numbers of cells over all ranks, and the quality of their shapes: 1 for the best, 0 for a degenerate cell, near 0 for flat cells in layers. Angles in degrees."""
     nodes: int
     triangles: int
     quads: int
@@ -61,7 +61,7 @@ class Mesh:
     triangles   (t, 3) int32: rows of `points`, counter-clockwise
     quads       (q, 4) int32
     edges       boundary -> (e, 2) int32, with the domain to the left
-    conditions  boundary -> its boundary condition, "" for none
+    conditions  boundary -> its boundary condition, "none" without one
     blocks      {"names", "triangles", "quads"}: the block of each cell as index into the names; empty for one block
     named_nodes name -> global number of a node
     global_ids  (n,) int64: the number of each node over all ranks
