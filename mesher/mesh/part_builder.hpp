@@ -23,11 +23,12 @@ class PartBuilder {
 
   Mesh& part() { return part_; }
 
-  /// Returns the nodes' numbers on this rank; those of other ranks become ghosts.
+  /// Returns the node's number on this rank; one of another rank becomes a ghost.
+  NodeId local(GlobalNodeId node) { return nodes_.local(node, {}); }
   template <std::size_t width>
   std::array<NodeId, width> local(const std::array<GlobalNodeId, width>& nodes) {
     std::array<NodeId, width> numbers;
-    for (std::size_t k = 0; k < width; ++k) numbers[k] = nodes_.local(nodes[k], {});
+    for (std::size_t k = 0; k < width; ++k) numbers[k] = local(nodes[k]);
     return numbers;
   }
   /// Appends cells or edges.

@@ -52,8 +52,8 @@ class ReorderedMesh {
 
  private:
   const Communicator& comm_;
-  PartOrder order_;
   RowMove nodes_, triangles_, quads_;
+  std::vector<std::int64_t> old_nodes_;  ///< numbers in the old order of the nodes in the new one
 };
 
 }  // namespace quadloop

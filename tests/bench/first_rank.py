@@ -37,10 +37,11 @@ COMMANDS = {
 
 
 def as_rank(folder, *command):
-    """One rank: runs the program and notes its largest memory in the folder."""
-    status = subprocess.call(command, stdout=subprocess.DEVNULL)
-    rank = os.environ.get("OMPI_COMM_WORLD_RANK", "0")
-    (Path(folder) / f"{int(rank):06}").write_text(str(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss))
+    """One rank: runs the program; notes its output and its largest memory in the folder."""
+    rank = int(os.environ.get("OMPI_COMM_WORLD_RANK", "0"))
+    with open(Path(folder) / f"{rank:06}.out", "w", encoding="utf-8") as output:
+        status = subprocess.call(command, stdout=output)
+    (Path(folder) / f"{rank:06}.kib").write_text(str(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss))
     return status
 
 
@@ -49,14 +50,15 @@ def options_of(name, arguments, finer):
     return [*arguments, "-q", *(word for text in (airfoil_options(finer) if takes_case else []) for word in ("--set", text))]
 
 
-def memory(args, arguments, ranks, folder):
-    """MiB of each rank."""
+def memory(quadloop, arguments, ranks, folder):
+    """MiB of each rank, and what the first one printed."""
     with tempfile.TemporaryDirectory() as notes:
-        program = [ROOT / "scripts" / "mpirun", "-n", ranks, sys.executable, "-B", __file__, "--as-rank", notes, args.quadloop, *arguments]
+        program = [ROOT / "scripts" / "mpirun", "-n", ranks, sys.executable, "-B", __file__, "--as-rank", notes, quadloop, *arguments]
         done = subprocess.run([str(word) for word in program], cwd=folder, capture_output=True, text=True)
         if done.returncode != 0:
             sys.exit(done.stderr)
-        return [int(note.read_text()) / 1024 for note in sorted(Path(notes).iterdir())]
+        mebibytes = [int(note.read_text()) / 1024 for note in sorted(Path(notes).glob("*.kib"))]
+        return mebibytes, (Path(notes) / "000000.out").read_text()
 
 
 def prepare(args, folder):
@@ -83,7 +85,7 @@ def main():
         for name, arguments in COMMANDS.items():
             row = [name]
             for ranks in args.ranks:
-                first, *others = memory(args, options_of(name, arguments, args.finer), ranks, folder)
+                (first, *others), _ = memory(args.quadloop, options_of(name, arguments, args.finer), ranks, folder)
                 mean = sum(others) / len(others)
                 missed |= first > 1.1 * mean
                 row += [f"{first:.0f}", f"{mean:.0f}", f"{100 * (first / mean - 1):+.0f} %"]

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""Processor time and bytes of each rank when a mesh of some million cells is written, for each format. Standard library only.
+"""Time and bytes of each rank when a mesh of some million cells is written, for each format. Standard library only.
 
     writing.py --quadloop PROGRAM [--before PROGRAM] [--repeats N] [--ranks N ...] [--finer F] [--formats NAME ...] [--update docs/performance.md]
 
-Each figure is that of `quadloop mesh` with the format less that of a run that writes only the tree file, medians of both. Processor time is that of the busiest
-rank, user and system; MPI's waiting is in it, so that runs beside other programs differ. Bytes are those that a rank passed to write(2) and pwrite(2).
+Each figure is that of `quadloop mesh` with the format less that of a run that writes only the tree file, medians of both. Seconds are those of the stage "write";
+the first number of ranks is the one that others are compared with. Processor time is that of the busiest rank, user and system; MPI's waiting is in it, so that
+runs beside other programs differ. Bytes are those that a rank passed to write(2) and pwrite(2).
 
 --before   an earlier program, measured in turn with the other one
 --finer    divides every spacing of the case cases/naca0012 (6: two million cells)
@@ -22,7 +23,7 @@ from bench import AIRFOIL, airfoil_options
 from figures import add_update, tell
 
 ROOT = Path(__file__).resolve().parents[2]
-FORMATS = ("mesh", "qmesh", "vtu", "su2", "msh", "cgns")
+FORMATS = ("mesh", "qmesh", "vtu", "vtkhdf", "su2", "msh", "cgns")
 NONE = "csv"  # has no mesh: only the tree is written
 
 
@@ -38,7 +39,7 @@ def as_rank(report, *command):
 
 
 def run_once(program, name, ranks, finer, folder):
-    """Processor seconds of the busiest rank, the largest and the sum of the ranks' bytes, and the number of cells."""
+    """Seconds of the stage "write", processor seconds of the busiest rank, the largest and the sum of the ranks' bytes, and the number of cells."""
     for file in folder.iterdir():
         file.unlink()
     launcher = [ROOT / "scripts" / "mpirun", "-n", str(ranks)] if ranks > 1 else []
@@ -50,7 +51,8 @@ def run_once(program, name, ranks, finer, folder):
     said = json.loads(done.stdout)
     reports = [json.loads(file.read_text()) for file in folder.glob("rank.*")]
     written = [report["bytes"] for report in reports]
-    return max(report["processor"] for report in reports), max(written), sum(written), said["triangles"] + said["quads"]
+    processor = max(report["processor"] for report in reports)
+    return said["seconds"]["write"]["slowest"], processor, max(written), sum(written), said["triangles"] + said["quads"]
 
 
 def measure(args, program, ranks, folder):
@@ -74,7 +76,7 @@ def main():
     parser.add_argument("--formats", nargs="+", default=FORMATS)
     add_update(parser)
     args = parser.parse_args()
-    rows, cells = [], 0
+    rows, cells, alone = [], 0, {}
     with tempfile.TemporaryDirectory(prefix="quadloop_bench_writing_") as folder:
         for ranks in args.ranks:
             for label, program in (("before", args.before), ("now", args.quadloop)):
@@ -82,12 +84,14 @@ def main():
                     continue
                 medians = measure(args, program, ranks, Path(folder))
                 for name in args.formats:
-                    processor, most, all_bytes, cells = (value - none for value, none in zip(medians[name], [*medians[NONE][:3], 0]))
-                    rows.append(f"| `.{name}` | {ranks} | {label} | {processor:.2f} | {most / 1e6:.0f} | {all_bytes / 1e6:.0f} |")
+                    *figures, cells = (value - none for value, none in zip(medians[name], [*medians[NONE][:4], 0]))
+                    seconds, processor, most, all_bytes = figures
+                    faster = alone.setdefault((name, label), seconds) / seconds
+                    rows.append(f"| `.{name}` | {ranks} | {label} | {seconds:.2f} | {faster:.2f} | {processor:.2f} | {most / 1e6:.0f} | {all_bytes / 1e6:.0f} |")
                     print(rows[-1], file=sys.stderr, flush=True)
     tell("\n".join([f"{cells / 1e6:.2f} million cells, median of {args.repeats} runs.", "",
-                    "| format | ranks | program | s of the busiest rank's processor | most MB written by a rank | MB written by all |",
-                    "|---|---|---|---|---|---|", *rows]), "writing.py", args.update)
+                    f"| format | ranks | program | s | times as fast as {args.ranks[0]} | s of the busiest rank's processor | most MB written by a rank | MB written by all |",
+                    "|---|---|---|---|---|---|---|---|", *rows]), "writing.py", args.update)
     return 0
 
 

@@ -1,6 +1,7 @@
 #include "mesher/base/parallel/exchange.hpp"
 
 #include <cstring>
+#include <limits>
 #include <numeric>
 
 #include "mesher/base/error.hpp"
@@ -12,7 +13,7 @@ namespace {
 using Counts = std::vector<Communicator::Count>;
 
 /// The number of items for each rank that gets some, ascending; `order` sorts the items unless it is empty.
-Counts counts_of(std::span<const int> ranks, std::span<const std::size_t> order) {
+Counts counts_of(std::span<const int> ranks, std::span<const std::uint32_t> order) {
   Counts counts;
   for (std::size_t i = 0; i < ranks.size(); ++i) {
     const int rank = ranks[order.empty() ? i : order[i]];
@@ -39,11 +40,14 @@ std::vector<Exchange::Source> stretches(const Counts& counts) {
 Exchange::Exchange(const Communicator& comm, std::span<const int> ranks) : comm_{&comm} {
   for (const int rank : ranks)
     QUADLOOP_REQUIRE(0 <= rank && rank < comm.size(), "items are for one of the ranks", rank, comm.size());
+  QUADLOOP_REQUIRE(ranks.size() <= std::numeric_limits<std::uint32_t>::max(), "items have 32-bit numbers",
+                   ranks.size());
   if (!std::is_sorted(ranks.begin(), ranks.end())) {
     order_.resize(ranks.size());
-    std::iota(order_.begin(), order_.end(), std::size_t{0});
-    std::stable_sort(order_.begin(), order_.end(),
-                     [&](std::size_t a, std::size_t b) { return ranks[a] < ranks[b]; });
+    std::vector<std::uint32_t> next(comm.size());
+    for (const int rank : ranks) ++next[rank];
+    std::exclusive_scan(next.begin(), next.end(), next.begin(), std::uint32_t{0});
+    for (std::uint32_t item = 0; const int rank : ranks) order_[next[rank]++] = item++;
   }
   const Counts counts = counts_of(ranks, order_);
   targets_ = stretches(counts);

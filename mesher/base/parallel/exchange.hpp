@@ -58,7 +58,7 @@ class Exchange {
 
   const Communicator* comm_;
   std::vector<Source> targets_, sources_;
-  std::vector<std::size_t> order_;  ///< items sorted by rank; empty if already sorted
+  std::vector<std::uint32_t> order_;  ///< items sorted by rank; empty if already sorted
 };
 
 /// Values collected one by one, each with a destination rank.

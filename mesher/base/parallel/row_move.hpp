@@ -19,10 +19,13 @@ class RowMove {
   /// `comm` must outlive the object. *Collective.*
   RowMove(const Communicator& comm, std::int64_t first, std::span<const std::int64_t> wanted)
       : exchange_{comm, owners(comm, first, wanted)} {
+    asked_.reserve(exchange_.arrivals());
     for (const std::int64_t number : exchange_.deliver(wanted))
       asked_.push_back(static_cast<std::int32_t>(number - first));
   }
 
+  /// The number of new rows on this rank.
+  std::size_t size() const { return exchange_.items(); }
   /// For each row that leaves this rank its index among the rank's old rows.
   std::span<const std::int32_t> leaving() const { return asked_; }
 
