@@ -24,10 +24,12 @@ from figures import add_update, machine, tell
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 CASES = {"naca0012": ROOT / "cases" / "naca0012" / "case.toml", "gulf_of_mexico": ROOT / "cases" / "gulf_of_mexico" / "medium.toml"}
+BALANCED = {"gulf_of_mexico, high": ROOT / "cases" / "gulf_of_mexico" / "high.toml", "gulf_of_mexico, layers": ROOT / "cases" / "gulf_of_mexico" / "layers.toml"}
+BALANCED_ON = (4, 8, 16)
 TYPES = ("hybrid", "delaunay")
 SIZE = 4  # all spacings of the airfoil divided by it in the first tables
 FITTED = [(size, ranks) for size in (2, 4, 8) for ranks in (1, 2, 4, 16)] + [(SIZE, 64)]
-CHECKED = [(5, 8), (SIZE, 32)]
+CHECKED = [(5, 8), (SIZE, 32), (SIZE, 256)]
 NEIGHBOURS = 12  # of a rank, at most, in a division of the plane
 LARGE = (1e9, 1024)  # cells, ranks
 COUNTS = ("work", "inside", "messages", "bytes", "collectives", "collective_bytes")
@@ -50,7 +52,7 @@ def run_once(quadloop, library, case, mesh_type, size, ranks):
         counts = Path(folder) / "counts"
         counts.mkdir()
         launcher = [ROOT / "scripts" / "mpirun", "-n", ranks, "-x", f"LD_PRELOAD={library}", "-x", f"MPI_COUNTS={counts}"]
-        command = [*launcher, quadloop, "mesh", CASES[case], "-o", Path(folder) / "out", "--json", *options_of(case, mesh_type, size)]
+        command = [*launcher, quadloop, "mesh", (CASES | BALANCED)[case], "-o", Path(folder) / "out", "--json", *options_of(case, mesh_type, size)]
         done = subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False)
         if done.returncode != 0:
             sys.exit(f"{' '.join(map(str, command))}\n{done.stderr}")
@@ -77,6 +79,7 @@ def total(run, name):
 
 def measure(args, library):
     runs = [run_once(args.quadloop, library, case, mesh_type, SIZE, ranks) for case in CASES for mesh_type in TYPES for ranks in args.ranks]
+    runs += [run_once(args.quadloop, library, case, mesh_type, SIZE, ranks) for case in BALANCED for mesh_type in TYPES for ranks in BALANCED_ON]
     have = {(run["size"], run["ranks"]) for run in runs if (run["case"], run["type"]) == ("naca0012", "hybrid")}
     more = [pair for pair in FITTED + CHECKED if pair not in have]
     runs += [run_once(args.quadloop, library, "naca0012", "hybrid", *pair) for pair in more]
@@ -97,6 +100,22 @@ def first_tables(runs, ranks):
                              f"{work.max() / work.mean():.2f} | {work.min() / work.mean():.2f} | "
                              f"{alone / work.max():.2f} | {total(run, 'messages').max():.0f} | {total(run, 'bytes').max() / 1e6:.2f} | "
                              f"{total(run, 'collectives').max():.0f} | {max(run['peak']) / 2**20:.0f} |")
+    return lines
+
+
+def balance_table(runs):
+    """The imbalance of all stages together and of the stages that take most of the time."""
+    stages = ("layer edge", "refinement", "cutting", "mesh", "smooth", "layers", "other")
+    lines = ["", "Larger coasts: largest over mean of the CPU time, of all and by stages.", "",
+             "| case | cells | ranks | CPU s, all ranks | slowest rank | all | " + " | ".join(stages) + " |", "|---" * (6 + len(stages)) + "|"]
+    for run in [run for run in runs if run["case"] in BALANCED]:
+        work = total(run, "work")
+        ratios = []
+        for stage in stages:
+            own = np.array(run["stages"].get(stage.replace(" ", "_"), {"work": []})["work"])
+            ratios.append(f"{own.max() / own.mean():.2f}" if own.size and own.max() > 1e-3 else "")
+        lines.append(f"| {run['case']}, {run['type']} | {run['cells']} | {run['ranks']} | {work.sum():.2f} | {work.max():.2f} | {work.max() / work.mean():.3f} | "
+                     + " | ".join(ratios) + " |")
     return lines
 
 
@@ -199,7 +218,7 @@ def main():
         args.save.write_text(json.dumps(kept))
     runs = kept["runs"]
     ranks = [n for n in args.ranks if any(run["ranks"] == n for run in runs)]
-    tell("\n".join(["one run each.", *first_tables(runs, ranks), *stage_tables(runs, ranks), *model_tables(runs)]), "scaling.py", args.update)
+    tell("\n".join(["one run each.", *first_tables(runs, ranks), *stage_tables(runs, ranks), *balance_table(runs), *model_tables(runs)]), "scaling.py", args.update)
 
 
 if __name__ == "__main__":
