@@ -132,7 +132,7 @@ void report_estimate(const CommandContext& context, const AdaptArguments& argume
   const adapt::AdaptiveCase& adaptive = input.adaptive;
   const MeshType type = adaptive.mesh.mesh.type;
   const DemandedSplits none(context.comm, {});
-  const MeshEstimate first = MeshTrial(adaptive.mesh).estimate(none);
+  const MeshEstimate first = MeshTrial(context.comm, adaptive.mesh).estimate(none);
   if (arguments.max_cells) require_within(first, adaptive.mesh.geometry, adaptive.mesh.mesh, none);
   const auto& most = adaptive.adapt.max_nodes;
   MeshEstimate largest = most ? grown_to(first, type, static_cast<double>(*most)) : first;

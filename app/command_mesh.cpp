@@ -184,7 +184,7 @@ void run_mesh(const CommandContext& context, const MeshArguments& arguments) {
   times.end();
   const MeasuredFlow measured = saved ? saved->measured : MeasuredFlow{};
   if (arguments.dry_run) {
-    const MeshEstimate estimate = MeshTrial(input, measured).estimate(demanded);
+    const MeshEstimate estimate = MeshTrial(comm, input, measured).estimate(demanded);
     if (arguments.max_cells) require_within(estimate, input.geometry, input.mesh, demanded);
     return report_estimate(context, prepared, estimate);
   }

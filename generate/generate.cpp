@@ -317,7 +317,7 @@ GeneratedMesh generate_layered(const Communicator& comm, const MeshInput& input,
   times.begin("layer edge");
   MeshReport dropped;
   const Geometry geometry = geometry_with_layers(input, dropped);
-  LayerFront front = front_of(input, geometry, measured, demanded);
+  LayerFront front = front_of(comm, input, geometry, measured, demanded);
   times.end();
   GeneratedMesh generated = OutsideMesh(comm, input, demanded, front).made(change);
   add_dropped(dropped, generated.result.report);

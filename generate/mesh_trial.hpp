@@ -11,15 +11,15 @@ namespace quadloop {
 /// Predicts the size of meshes of one input for different demands, without generating them completely.
 class MeshTrial {
  public:
-  /// `input` must outlive the object. Throws InputError if its layers do not fit.
-  explicit MeshTrial(const MeshInput& input, const MeasuredFlow& measured = {});
+  /// `comm` and `input` must outlive the object. Throws InputError if its layers do not fit. *Collective.*
+  MeshTrial(const Communicator& comm, const MeshInput& input, const MeasuredFlow& measured = {});
   MeshTrial(const MeshTrial&) = delete;
   MeshTrial& operator=(const MeshTrial&) = delete;
 
   /// Returns the number of nodes of the mesh of generate_mesh(): counted on the quadtree cells
   /// (count_nodes()); with layers, counted on the unsmoothed mesh outside them plus the nodes of the layers.
   /// The bounds differ only at sharp edges (layer_nodes()). Throws as these do. *Collective.*
-  NodeBounds nodes(const Communicator& comm, const DemandedSplits& demanded) const;
+  NodeBounds nodes(const DemandedSplits& demanded) const;
 
   /// Returns an estimate, the same on any number of ranks. Not collective.
   MeshEstimate estimate(const DemandedSplits& demanded) const;
@@ -32,6 +32,7 @@ class MeshTrial {
   };
   Layered layered(const DemandedSplits& demanded) const;
 
+  const Communicator& comm_;
   std::optional<MeshInput> sized_;  ///< with the sizes that wakes without layers request
   const MeshInput& input_;
   MeasuredFlow measured_;

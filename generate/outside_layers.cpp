@@ -68,12 +68,12 @@ void require_strips_within(const std::vector<PlacedLine>& lines, const MeshLimit
 
 }  // namespace
 
-LayerFront front_of(const MeshInput& input, const Geometry& geometry, const MeasuredFlow& measured,
-                    const DemandedSplits& demanded) {
+LayerFront front_of(const Communicator& comm, const MeshInput& input, const Geometry& geometry,
+                    const MeasuredFlow& measured, const DemandedSplits& demanded) {
   require_strips_within(place_lines(geometry, input.lines, measured.wakes), input.mesh.limit);
   const auto front = [&](const AdaptedSize& adapted) {
     return layer_front(geometry, input.mesh.size.curvature, input.lines, measured,
-                       input.mesh.mirror.has_value(), input.mesh.pairs, adapted);
+                       input.mesh.mirror.has_value(), input.mesh.pairs, adapted, &comm);
   };
   if (demanded.empty()) return front({});
   const TreeGrid grid = input.grid();

@@ -25,9 +25,9 @@ Geometry geometry_with_layers(const MeshInput& input, MeshReport& dropped);
 
 /// Returns the outer edge of an input's layers on such a geometry, which must outlive it. `demanded`: the
 /// requests of adaptation, which layers and the columns of wakes and layer lines follow. Throws TooManyCells,
-/// naming the line, if strips would have more cells than the input allows.
-LayerFront front_of(const MeshInput& input, const Geometry& geometry, const MeasuredFlow& measured,
-                    const DemandedSplits& demanded);
+/// naming the line, if strips would have more cells than the input allows. *Collective.*
+LayerFront front_of(const Communicator& comm, const MeshInput& input, const Geometry& geometry,
+                    const MeasuredFlow& measured, const DemandedSplits& demanded);
 
 /// Returns the same input for the domain outside the layers, with the same root.
 MeshInput outside(const MeshInput& input, const LayerFront& front);

@@ -162,7 +162,8 @@ std::array<GlobalNodeId, width> numbered(const std::array<NodeId, width>& nodes,
   return result;
 }
 
-/// Moves cells to the new order, their first nodes at first, as fewer values are then in memory. *Collective.*
+/// Moves cells to the new order, their first nodes at first, as fewer values are then in memory.
+/// *Collective.*
 template <std::size_t width>
 void move_cells(const RowMove& move, const std::vector<std::array<NodeId, width>>& cells,
                 const NewNumbers& numbers, PartBuilder& builder, std::vector<std::array<NodeId, width>>& to) {

@@ -64,7 +64,7 @@ int layer_fronts(const std::uint8_t* data, std::size_t size) {
   input.mesh.size.curvature = curvature;
   input.mesh.limit.cells = 20000;
   input.lines = lines;
-  const LayerFront front = front_of(input, input.geometry, {}, {});
+  const LayerFront front = front_of(Communicator(MPI_COMM_SELF), input, input.geometry, {}, {});
   require_positive(front);
   require_outline(front.outer, area_of(input.geometry));
   return 0;

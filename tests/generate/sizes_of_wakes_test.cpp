@@ -155,7 +155,7 @@ TEST(SizesOfWakes, MeshesHaveTheSizesAndTrialsCountThem) {
     input.wakes_without_layers = {wake_from_body(3)};
     const MeshResult made = generate_mesh(world(), input).result;
     EXPECT_GT(made.tree.attributes.nodes, before);
-    const NodeBounds counted = MeshTrial(input).nodes(world(), {});
+    const NodeBounds counted = MeshTrial(world(), input).nodes({});
     EXPECT_LE(counted.least, made.tree.attributes.nodes);
     EXPECT_GE(counted.most, made.tree.attributes.nodes);
     const Mesh whole = gather_whole(world(), made.mesh);

@@ -13,7 +13,7 @@ NodeBounds TrialCount::nodes_after(const ChangedSplits& changes) const {
 
 NodeBounds TrialCount::nodes_of(const DemandedSplits& demanded) const {
   try {
-    return trial_.nodes(comm_, demanded);
+    return trial_.nodes(demanded);
   } catch (const TooManyCells&) {  // thrown from an estimate that is the same on all ranks
     return {beyond, beyond};
   }

@@ -14,7 +14,7 @@ class TrialCount {
  public:
   /// `input` and the communicator must outlive the object. Throws as MeshTrial does.
   TrialCount(const Communicator& comm, const MeshInput& input, const MeasuredFlow& measured)
-      : comm_{comm}, trial_{input, measured}, limit_{input.mesh.limit} {}
+      : comm_{comm}, trial_{comm, input, measured}, limit_{input.mesh.limit} {}
 
   static constexpr std::int64_t beyond = std::numeric_limits<std::int64_t>::max();
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <span>
 #include <utility>
 
 namespace quadloop {
@@ -12,6 +14,7 @@ constexpr double least_cosine_of_tilt = 0.55;                    // of a column:
 constexpr double least_ratio = 0.3, largest_ratio = 6;           // width of the front over that of the wall
 constexpr double convergent_ratio = 1.1, spreading_ratio = 1.5;  // same ratio
 constexpr int most_averagings = 40;
+constexpr std::int32_t worth_sharing = 200;  ///< crowded stations that ranks divide among them
 
 // A column's length depends on half a thickness of wall around its station. Seen from a place at this
 // distance, the distance is measured in the local thickness, which may be smaller by 0.35 of the distance.
@@ -24,8 +27,9 @@ constexpr double known_within = 0.61;
 /// touches.
 class ColumnsOnWall::Columns {
  public:
-  explicit Columns(const WallLine& line)
+  Columns(const WallLine& line, const Communicator* sharing)
       : line_{line},
+        sharing_{sharing},
         h_(line.size()),
         leans_(line.size()),
         convergence_(line.size()),
@@ -84,6 +88,13 @@ class ColumnsOnWall::Columns {
     touched_.clear();
     set_lengths(stations_);
     std::vector<std::int32_t> crowded = crowded_among(stations_);
+    const bool shares = sharing_ != nullptr && size32(crowded) >= worth_sharing;
+    turn_together(std::move(crowded), shares ? sharing_->size() : 1);
+    for (const std::int32_t i : touched_) turned_[i] = 0;
+  }
+
+  /// Turns columns around the crowded stations.
+  void turn(std::vector<std::int32_t> crowded) {
     for (int round = 0; round < most_averagings && !crowded.empty(); ++round) {
       const std::vector<std::int32_t> turned = around(
           crowded, [&](std::int32_t i) { return h_[i]; }, true);
@@ -97,7 +108,87 @@ class ColumnsOnWall::Columns {
         if (!std::exchange(turned_[i], 1)) touched_.push_back(i);
       }
     }
-    for (const std::int32_t i : touched_) turned_[i] = 0;
+  }
+
+  /// A column that a rank has turned, or a place whose convergence has changed.
+  struct Changed {
+    std::int32_t station = 0;
+    bool touched = false;
+    Point direction;
+    double length = 0, convergence = 0;
+  };
+
+  /// The same with shares of the crowded stations, each of another rank. If no column that one of them
+  /// depends on was changed by another, these are the columns of turn(); else with fewer, larger shares.
+  /// *Collective.*
+  void turn_together(std::vector<std::int32_t> crowded, int shares) {
+    constexpr int fewer = 4;
+    if (shares <= 1) return turn(std::move(crowded));
+    const WallColumns before = columns_;
+    const std::vector<double> convergence_before = convergence_;
+    turn(share_of(crowded, shares));
+    const std::vector<Changed> own = changes(),
+                               all = sharing_->all_gather_values(std::span<const Changed>(own));
+    if (sharing_->any(depends_on_others(all, own.size()))) {
+      columns_ = before;
+      convergence_ = convergence_before;
+      for (const std::int32_t i : touched_) turned_[i] = 0;
+      touched_.clear();
+      return turn_together(std::move(crowded), shares / fewer);
+    }
+    for (const auto& [station, touched, direction, length, convergence] : all) {
+      columns_.direction[station] = direction;
+      columns_.length[station] = length;
+      convergence_[station] = convergence;
+      if (touched && !std::exchange(turned_[station], 1)) touched_.push_back(station);
+    }
+  }
+
+  std::vector<Changed> changes() {
+    std::vector<Changed> changed;
+    begin_set();
+    for (const std::int32_t i : touched_) {
+      for (const std::int32_t j : {i, line_.previous(i)}) {
+        if (j != WallLine::none && add_to_set(j))
+          changed.push_back({j, turned_[j] != 0, columns_.direction[j], columns_.length[j], convergence_[j]});
+      }
+    }
+    return changed;
+  }
+
+  /// Whether changes of other ranks, among those of all, are at stations that this rank's columns depend on.
+  bool depends_on_others(const std::vector<Changed>& all, std::size_t own) {
+    std::vector<std::int32_t> zone = zone_of(touched_);
+    begin_set();
+    for (const std::int32_t i : zone) add_to_set(i);
+    const auto in_zone =
+        std::ranges::count_if(all, [&](const Changed& change) { return seen_[change.station] == stamp_; });
+    return static_cast<std::size_t>(in_zone) != own;
+  }
+
+  /// This rank's share of the crowded stations, with borders where two of them are far apart; none on ranks
+  /// beyond the number of shares.
+  std::vector<std::int32_t> share_of(std::vector<std::int32_t> crowded, int shares) const {
+    std::ranges::sort(crowded);
+    const std::int64_t count = std::ssize(crowded), search = count / (3 * shares);
+    const auto border = [&](std::int64_t rank) {
+      std::int64_t best = std::min(count, rank * count / shares);
+      if (rank == 0 || rank >= shares) return best;
+      double widest = 0;
+      for (std::int64_t k = std::max<std::int64_t>(1, best - search), end = best + search; k <= end; ++k) {
+        const double gap = thicknesses_between(crowded[k - 1], crowded[k]);
+        if (gap > widest) widest = gap, best = k;
+      }
+      return best;
+    };
+    return {crowded.begin() + border(sharing_->rank()), crowded.begin() + border(sharing_->rank() + 1)};
+  }
+  /// The length of the wall from one station to a later one, in thicknesses; infinite between two runs.
+  double thicknesses_between(std::int32_t from, std::int32_t to) const {
+    if (line_.steps(from, to) == WallLine::none) return std::numeric_limits<double>::infinity();
+    double distance = 0;
+    for (std::int32_t i = from; i < to; ++i) distance += line_.width(i);
+    return distance / std::max(h_[from], h_[to]);
   }
 
   /// The stations that depend on the given ones.
@@ -281,6 +372,7 @@ class ColumnsOnWall::Columns {
   }
 
   const WallLine& line_;
+  const Communicator* sharing_;  ///< or null
   std::vector<double> h_, leans_;
   std::vector<double> convergence_;  ///< between each station and the next
   std::vector<std::int64_t> seen_;   ///< the last set that each station was added to
@@ -293,7 +385,8 @@ class ColumnsOnWall::Columns {
   WallColumns columns_;
 };
 
-ColumnsOnWall::ColumnsOnWall(const WallLine& line) : columns_{std::make_unique<Columns>(line)} {}
+ColumnsOnWall::ColumnsOnWall(const WallLine& line, const Communicator* sharing)
+    : columns_{std::make_unique<Columns>(line, sharing)} {}
 ColumnsOnWall::~ColumnsOnWall() = default;
 
 const WallColumns& ColumnsOnWall::fit(const std::vector<double>& thickness) {

@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "mesher/base/parallel/communicator.hpp"
 #include "mesher/layers/front/wall_line.hpp"
 
 namespace quadloop {
@@ -29,12 +30,14 @@ struct WallColumns {
 /// Thickness changes by at most 0.35 of the distance along the wall.
 class ColumnsOnWall {
  public:
-  /// `line` must outlive it.
-  explicit ColumnsOnWall(const WallLine& line);
+  /// `line` must outlive it. The ranks of `sharing` have the same line and divide the work; they get the
+  /// columns that a rank alone does, bit for bit. Null: this rank is alone.
+  explicit ColumnsOnWall(const WallLine& line, const Communicator* sharing = nullptr);
   ~ColumnsOnWall();
   ColumnsOnWall(const ColumnsOnWall&) = delete;
   ColumnsOnWall& operator=(const ColumnsOnWall&) = delete;
 
+  /// *Collective* on the ranks that share the work, which give the same thickness.
   const WallColumns& fit(const std::vector<double>& thickness);
 
  private:

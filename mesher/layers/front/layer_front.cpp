@@ -424,7 +424,8 @@ double leaf_wanted_by_layers(const Geometry& geometry, const std::vector<LayerLi
 
 LayerFront layer_front(const Geometry& geometry, std::optional<double> curvature,
                        const std::vector<LayerLine>& lines, const MeasuredFlow& measured, bool mirrored,
-                       const std::vector<PeriodicPair>& pairs, const AdaptedSize& adapted) {
+                       const std::vector<PeriodicPair>& pairs, const AdaptedSize& adapted,
+                       const Communicator* sharing) {
   std::vector<PlacedLine> placed = place_lines(geometry, lines, measured.wakes);
   WallLine line = wall_line(geometry, placed, measured, adapted);
   if (adapted) line.limit_thickness(adapted_thickness(line, adapted));
@@ -432,7 +433,7 @@ LayerFront layer_front(const Geometry& geometry, std::optional<double> curvature
   for (PlacedLine& one : placed) one = before_layers.with_room(one);
   if (const std::vector<double> most = before_layers.thickness_of_walls(); !most.empty())
     line.limit_thickness(most);
-  FittingColumns fitting = fit_thickness(line, partners_at(line, pairs));
+  FittingColumns fitting = fit_thickness(line, partners_at(line, pairs), sharing);
   LayerFront front{std::move(line), {}, {}, {}, geometry, {}, {}, {}, false};
   const WakeRoom room(front.line, fitting.front, placed);
   for (PlacedLine& one : placed) one = room.with_room(one);

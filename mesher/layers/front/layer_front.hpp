@@ -61,11 +61,13 @@ double leaf_wanted_by_layers(const Geometry& geometry, const std::vector<LayerLi
 /// `adapted`, the columns of lines are as wide as these cells. Depends on its arguments only; mirror
 /// images have mirrored fronts, and if `mirrored`, a geometry that is its own mirror image has a front with
 /// mirrored sizes. Layers that end on both sides of a periodic pair are equally thick there. Throws
-/// InputError with coordinates where no layers fit. `geometry` must outlive the result.
+/// InputError with coordinates where no layers fit. `geometry` must outlive the result. The ranks of
+/// `sharing` have the same arguments, divide the work and get the same front; null: this rank is alone.
+/// *Collective* on these ranks.
 LayerFront layer_front(const Geometry& geometry, std::optional<double> curvature = {},
                        const std::vector<LayerLine>& lines = {}, const MeasuredFlow& measured = {},
                        bool mirrored = false, const std::vector<PeriodicPair>& pairs = {},
-                       const AdaptedSize& adapted = {});
+                       const AdaptedSize& adapted = {}, const Communicator* sharing = nullptr);
 
 /// Only the front's stations, with their requested layers.
 WallLine wall_line(const Geometry& geometry, const std::vector<LayerLine>& lines,

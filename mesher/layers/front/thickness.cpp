@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
+#include <span>
 #include <tuple>
 #include <utility>
 
 #include "mesher/base/error.hpp"
 #include "mesher/geometry/box_tree.hpp"
 #include "mesher/geometry/predicates.hpp"
+#include "mesher/layers/front/front_tree.hpp"
 
 namespace quadloop {
 
@@ -20,10 +22,6 @@ constexpr double shrink = 0.85;
 constexpr double clearance = 0.75;  // free length beyond a column's end, as a fraction of its length
 constexpr double own_reach = 4;     // thicknesses of wall within which a column's own wall is no obstacle
 constexpr int most_passes = 200, passes_alone = 12;
-
-struct Segment {
-  Point from, to;
-};
 
 /// Stations, and segments of other boundaries, near a station along the boundary, from which its column needs
 /// no distance.
@@ -86,59 +84,16 @@ class Vicinity {
   std::int64_t stamp_ = 0;
 };
 
-/// Search tree of the segments of fronts, by their first stations. As most segments stay from one pass to the
-/// next, the tree is that of an earlier pass, and segments that have moved since are in a small second tree.
-class FrontTree {
- public:
-  /// `segment(place)`: the present segment; `moved`: places whose segment has changed.
-  template <class SegmentAt>
-  void update(const std::vector<std::int32_t>& moved, std::int32_t size, const SegmentAt& segment) {
-    constexpr std::int32_t few = 8;  // rebuild if more than one in this many moved
-    has_moved_.resize(size, 0);
-    for (const std::int32_t place : moved) {
-      if (!std::exchange(has_moved_[place], 1)) recent_places_.push_back(place);
-    }
-    if (size32(recent_places_) > size32(places_) / few) {
-      places_.clear();
-      for (std::int32_t place = 0; place < size; ++place) {
-        if (segment(place)) places_.push_back(place);
-      }
-      tree_ = tree_of(places_, segment);
-      std::fill(has_moved_.begin(), has_moved_.end(), 0);
-      recent_places_.clear();
-    }
-    recent_ = tree_of(recent_places_, segment);
-  }
-  template <class Visit>
-  void for_each_meeting(const Box& box, const Visit& visit) const {
-    tree_.for_each_meeting(box, [&](std::int32_t k) {
-      if (!has_moved_[places_[k]]) visit(places_[k]);
-    });
-    recent_.for_each_meeting(box, [&](std::int32_t k) { visit(recent_places_[k]); });
-  }
-
- private:
-  template <class SegmentAt>
-  static BoxTree tree_of(const std::vector<std::int32_t>& places, const SegmentAt& segment) {
-    std::vector<Box> boxes;
-    for (const std::int32_t place : places) boxes.push_back(box_of(segment(place)->from, segment(place)->to));
-    return BoxTree(boxes);
-  }
-
-  std::vector<std::int32_t> places_, recent_places_;
-  std::vector<char> has_moved_;
-  BoxTree tree_, recent_;
-};
-
 class Fitting {
  public:
-  Fitting(const WallLine& line, const StationPairs& partners)
+  Fitting(const WallLine& line, const StationPairs& partners, const Communicator* sharing)
       : line_{line},
         partners_{partners},
+        sharing_{sharing},
         vicinity_{line},
         h_(line.size()),
         meets_(line.size()),
-        columns_on_wall_{line} {
+        columns_on_wall_{line, sharing} {
     for (std::int32_t i = 0; i < line_.size(); ++i) h_[i] = std::min(line_.asked(i), room_at(i));
     gather_walls();
   }
@@ -149,8 +104,10 @@ class Fitting {
       limit_slopes();
       renew_columns();
       std::fill(meets_.begin(), meets_.end(), 0);
+      own_ = share_of_moved();
       mark_meeting();
       mark_unproved();
+      share_marks();
       if (pass >= passes_alone) spread_flags();
       if (!any_marked()) return {std::move(h_), std::move(columns_), std::move(front_)};
       for (std::int32_t i = 0; i < line_.size(); ++i) {
@@ -166,6 +123,37 @@ class Fitting {
     const Station& end = line_[i];
     if (end.shape != Station::Shape::end || end.at_wake) return std::numeric_limits<double>::infinity();
     return share_of_end * line_.end_path(i).length() * dot(end.direction, left_of(end.after));
+  }
+
+  /// Divides the stations among the ranks, in their order, such that sums of weights are nearly equal.
+  template <class Weight>
+  StationRange share(const Weight& weight) const {
+    if (sharing_ == nullptr) return {0, line_.size()};
+    std::int64_t sum = 0;
+    for (std::int32_t i = 0; i < line_.size(); ++i) sum += weight(i);
+    StationRange own{line_.size(), line_.size()};
+    std::int64_t before = 0;
+    const std::int64_t ranks = sharing_->size(), rank = sharing_->rank();
+    for (std::int32_t i = 0; i < line_.size() && own.end == line_.size(); before += weight(i++)) {
+      if (own.begin == line_.size() && before * ranks >= rank * sum) own.begin = i;
+      if (before * ranks >= (rank + 1) * sum) own.end = i;
+    }
+    return own;
+  }
+  /// The work is at stations that have moved.
+  StationRange share_of_moved() const {
+    constexpr int of_moved = 16;  // the work there, in that at others
+    return share([&](std::int32_t i) { return moved_[i] ? of_moved : 1; });
+  }
+  /// Marks what other ranks have marked.
+  void share_marks() {
+    if (sharing_ == nullptr) return;
+    std::vector<std::int32_t> marked;
+    for (std::int32_t i = 0; i < line_.size(); ++i) {
+      if (meets_[i]) marked.push_back(i);
+    }
+    for (const std::int32_t i : sharing_->all_gather_values(std::span<const std::int32_t>(marked)))
+      meets_[i] = 1;
   }
 
   /// Notes the stations whose fronts have moved; only these have to be checked again.
@@ -241,8 +229,9 @@ class Fitting {
   void guess() {
     limit_slopes();
     columns_ = columns_on_wall_.fit(h_);
-    std::vector<double> guessed = h_;
-    for (std::int32_t i = 0; i < line_.size(); ++i) {
+    std::vector<double> guessed;
+    own_ = share([](std::int32_t) { return 1; });
+    for (std::int32_t i = own_.begin; i < own_.end; ++i) {
       vicinity_.move_to(i, own_reach * h_[i]);
       const double reach = columns_.length[i] / share_of_gap;
       const Point end = wall(i) + reach * columns_.direction[i];
@@ -256,9 +245,10 @@ class Fitting {
                              (2 * cross(end - wall(i), across));
         if (share > 0 && share < nearest) nearest = share;
       });
-      guessed[i] = nearest * h_[i];
+      guessed.push_back(nearest * h_[i]);
     }
-    h_ = guessed;
+    h_ = sharing_ == nullptr ? std::move(guessed)
+                             : sharing_->all_gather_values(std::span<const double>(guessed));
   }
 
   /// h(s) <= h(s') + 0.35 |s - s'|, and partners are as thick as each other.
@@ -281,16 +271,11 @@ class Fitting {
   }
 
   void mark_meeting() {
-    std::vector<std::int32_t> moved_places;
-    std::vector<Segment> moved;
-    for (std::int32_t i = 0; i < line_.size(); ++i) {
-      if (!place_exists(i) || !front_moved(i)) continue;
-      moved_places.push_back(i);
-      moved.push_back(*front_after(i));
-    }
-    fronts_.update(moved_places, line_.size(), [&](std::int32_t i) { return front_after(i); });
-    const BoxTree of_moved = tree_of(moved);
-    for (std::int32_t i = 0; i < line_.size(); ++i) {
+    fronts_ = FrontTree(line_, [&](std::int32_t i) { return front_after(i); });
+    const FrontTree of_moved(line_, [&](std::int32_t i) {
+      return place_exists(i) && front_moved(i) ? front_after(i) : std::nullopt;
+    });
+    for (std::int32_t i = own_.begin; i < own_.end; ++i) {
       const Point end = front(i) + clearance * (front(i) - wall(i));
       const Box box = box_of(wall(i), end);
       if (!moved_[i] && !of_moved.any_meeting(box, [](std::int32_t) { return true; })) continue;
@@ -305,7 +290,7 @@ class Fitting {
       if (moved_[i])
         fronts_.for_each_meeting(box, look_at);
       else
-        of_moved.for_each_meeting(box, [&](std::int32_t k) { look_at(moved_places[k]); });
+        of_moved.for_each_meeting(box, look_at);
     }
   }
 
@@ -336,7 +321,7 @@ class Fitting {
   /// corners, and no segment of a front meets another one or a boundary, no two columns meet: a map of a ring
   /// that is locally one-to-one, and one-to-one on its rims, is one-to-one.
   void mark_unproved() {
-    for (std::int32_t i = 0; i < line_.size(); ++i) {
+    for (std::int32_t i = own_.begin; i < own_.end; ++i) {
       if (!place_exists(i) || !front_moved(i) || (is_positive(i) && is_beside_ends(i))) continue;
       meets_[i] = meets_[line_.next(i)] = 1;
     }
@@ -348,7 +333,7 @@ class Fitting {
   /// entirely between two columns; this is the case if one of its points does.
   void mark_bodies_within() {
     const Geometry& g = line_.geometry();
-    for (std::int32_t i = 0; i < line_.size(); ++i) {
+    for (std::int32_t i = own_.begin; i < own_.end; ++i) {
       if (!place_exists(i) || !front_moved(i)) continue;
       const std::int32_t j = line_.next(i);
       Box box = box_of(wall(i), front(i));
@@ -393,6 +378,8 @@ class Fitting {
 
   const WallLine& line_;
   const StationPairs& partners_;
+  const Communicator* sharing_;  ///< or null
+  StationRange own_;             ///< those that this rank looks at
   Vicinity vicinity_;
   std::vector<double> h_;
   std::vector<char> meets_, moved_;
@@ -435,7 +422,7 @@ bool Fitting::ends_on(std::int32_t i, std::int32_t segment) const {
 /// Tests fronts against each other and against boundaries without layers; a front that ends on one may touch
 /// it. Pairs that have not moved did not meet before.
 void Fitting::mark_crossing_fronts() {
-  for (std::int32_t i = 0; i < line_.size(); ++i) {
+  for (std::int32_t i = own_.begin; i < own_.end; ++i) {
     if (!place_exists(i) || !front_moved(i)) continue;
     const std::int32_t j = line_.next(i);
     const Box box = box_of(front(i), front(j));
@@ -465,8 +452,9 @@ bool Fitting::fronts_meet(std::int32_t i, std::int32_t k) const {
 
 }  // namespace
 
-FittingColumns fit_thickness(const WallLine& line, const StationPairs& partners) {
-  return Fitting(line, partners).found();
+FittingColumns fit_thickness(const WallLine& line, const StationPairs& partners,
+                             const Communicator* sharing) {
+  return Fitting(line, partners, sharing).found();
 }
 
 }  // namespace quadloop

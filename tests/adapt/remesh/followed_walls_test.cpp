@@ -441,20 +441,20 @@ TEST(PlanWithLayers, TheColumnsOfAWakeAreRefinedWithTheCellsBesideThem) {
     return summarise_quality(world(), result.mesh).smallest_degrees;
   };
   EXPECT_GT(smallest_angle(made), 0.7 * smallest_angle(before));
-  const NodeBounds counted = MeshTrial(input).nodes(world(), splits);
+  const NodeBounds counted = MeshTrial(world(), input).nodes(splits);
   EXPECT_GE(counted.most, made.tree.attributes.nodes);
   EXPECT_LE(counted.least, made.tree.attributes.nodes);
 }
 
 TEST(MeshTrial, CountsTheNodesOfLayersAndWakes) {
   const MeshInput straight = channel();
-  const NodeBounds exact = MeshTrial(straight).nodes(world(), {});
+  const NodeBounds exact = MeshTrial(world(), straight).nodes({});
   EXPECT_EQ(exact.least, exact.most) << "there are no fans";
   EXPECT_EQ(exact.most, generate_mesh(world(), straight).result.tree.attributes.nodes);
   for (const bool with_wake : {false, true}) {
     const MeshInput input = wedge(with_wake);
     const std::int64_t made = generate_mesh(world(), input).result.tree.attributes.nodes;
-    const NodeBounds counted = MeshTrial(input).nodes(world(), {});
+    const NodeBounds counted = MeshTrial(world(), input).nodes({});
     EXPECT_GE(counted.most, made) << with_wake;
     EXPECT_LE(counted.least, made) << with_wake;
     EXPECT_LE(static_cast<double>(counted.most), 1.1 * static_cast<double>(counted.least)) << with_wake;

@@ -122,7 +122,7 @@ TEST(ThicknessToFollow, GivesTheNextMeshLayersThatEndAtTheEdge) {
   const RemeshedSolution next = remesh_and_transfer(world(), input, plan, flow);
   const MeshResult& made = next.generated.result;
   EXPECT_EQ(made.tree.measured, plan.measured);
-  const LayerFront front = front_of(input, input.geometry, plan.measured, {});
+  const LayerFront front = front_of(world(), input, input.geometry, plan.measured, {});
   for (std::int32_t i = 0; i < front.line.size(); ++i) {
     const Station& station = front.line[i];
     const double wanted = 1.2 * exact_edge(station.wall.x);
