@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <iterator>
 #include <system_error>
-#include <variant>
 
 #include "io/cgns/cgns_file.hpp"
 #include "io/cgns/cgns_names.hpp"
@@ -31,7 +30,6 @@
 #include "io/vtu/vtu_file.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/suffix.hpp"
-#include "mesher/mesh/paired_nodes.hpp"
 #include "mesher/mesh/variable_names.hpp"
 
 namespace quadloop::io {
@@ -44,23 +42,12 @@ std::vector<std::string> msh_group_names(const std::vector<std::string>& boundar
   return names;
 }
 
-/// Removes the nodes of pairs from those on other periodic sides.
-void separate_pairs(MeshOfFile& whole) {
-  LoadedMesh* const plane = std::get_if<LoadedMesh>(&whole);
-  if (plane == nullptr) return;
-  const std::vector<NodeId> of_pairs = nodes_on_sides(plane->mesh);
-  std::erase_if(plane->periodic_nodes,
-                [&](NodeId node) { return std::ranges::binary_search(of_pairs, node); });
-}
-
 /// Reads a format that the root reads alone, whole.
 template <MeshOfFile (*read)(const std::string&)>
 MeshOfFile read_at_root(const Communicator& comm, const std::string& path) {
   MeshOfFile whole;
   comm.together([&] {
-    if (!comm.is_root()) return;
-    whole = read(path);
-    separate_pairs(whole);
+    if (comm.is_root()) whole = read(path);
   });
   return distributed(comm, std::move(whole));
 }
@@ -158,7 +145,7 @@ FileFormat cgns_row() {
           .by_default = true,
           .bytes_of_cell = {35, 22},
           .bytes_of_value = 8,
-          .read = read_at_root<read_cgns>,
+          .read = read_cgns,
           .write = [](OutputSet& outputs, const MeshStream& mesh,
                       const std::string& path) { write_cgns(outputs, mesh, path); },
           .boundary_names = cgns_boundary_names,

@@ -24,6 +24,8 @@
 #include "mesher/base/suffix.hpp"
 #include "mesher/mesh/cells/edge_cells.hpp"
 #include "mesher/mesh/layers/layer_nodes.hpp"
+#include "mesher/mesh/node_exchange.hpp"
+#include "mesher/mesh/paired_nodes.hpp"
 
 namespace quadloop::io {
 
@@ -73,6 +75,20 @@ void finish_reading(FileMesh& mesh, const std::string& path) {
   if (const std::int64_t turned = orient_mesh3d(mesh); turned > 0)
     mesh.warnings.push_back(fmt::format("{}: {} inside out and reversed", path,
                                         turned == 1 ? "1 cell was" : fmt::format("{} cells were", turned)));
+}
+
+/// Removes the nodes of pairs from those on other periodic sides. *Collective.*
+void separate_pairs(const Communicator& comm, LoadedMesh& loaded) {
+  const Mesh& mesh = loaded.mesh;
+  if (mesh.pairs.empty() || !comm.any(!loaded.periodic_nodes.empty())) return;
+  NodeFlags of_pairs(mesh.points.size(), 0);
+  std::vector<GlobalNodeId> ghosts;
+  for (const NodeId node : nodes_on_sides(mesh)) {
+    of_pairs[node] = 1;
+    if (!mesh.owns(node)) ghosts.push_back(mesh.global(node));
+  }
+  flag_at_owners(comm, NodeOwners(comm, mesh.first_node), ghosts, of_pairs);
+  std::erase_if(loaded.periodic_nodes, [&](NodeId node) { return of_pairs[node] != 0; });
 }
 
 /// Data of a mesh that a format may not support.
@@ -312,6 +328,8 @@ MeshOfFile read_mesh_file(const Communicator& comm, const std::string& path) {
   } else {
     mesh = format->read(comm, path);
   }
+  if (LoadedMesh* const plane = std::get_if<LoadedMesh>(&mesh); plane != nullptr)
+    separate_pairs(comm, *plane);
   comm.together([&] { std::visit([&](auto& read) { finish_reading(read, path); }, mesh); });
   return mesh;
 }

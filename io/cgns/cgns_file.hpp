@@ -19,10 +19,13 @@ enum class CgnsSizes { as_needed, always_64_bits };
 void write_cgns(OutputSet& outputs, const MeshStream& mesh, const std::string& path,
                 CgnsSizes sizes = CgnsSizes::as_needed);
 
-/// Reads the first base of a CGNS file on the calling rank only: unstructured zones with sections of TRI_3,
-/// QUAD_4, BAR_2 and MIXED, in 3D also TETRA_4, PYRA_5, PENTA_6 and HEXA_8. In 2D each zone is a block, and
-/// coincident nodes of two zones are merged; in 3D there must be one zone. Throws InputError on anything
-/// else.
-MeshOfFile read_cgns(const std::string& path);
+/// Reads the first base of a CGNS file: unstructured zones with sections of TRI_3, QUAD_4, BAR_2 and MIXED,
+/// in 3D also TETRA_4, PYRA_5, PENTA_6 and HEXA_8. In 2D each zone is a block, and coincident nodes of two
+/// zones are merged. A plane mesh of one zone is read by ranges: the root reads what is not in large arrays,
+/// with all boundary edges, and each rank its share of the arrays. The root reads the whole mesh if there are
+/// several zones or MIXED sections, if an array is not one piece of the file (chunked, compressed, in another
+/// file), and if the file is not HDF5 or is damaged. A 3D mesh remains on the root. Throws InputError on all
+/// ranks on anything else. *Collective.*
+MeshOfFile read_cgns(const Communicator& comm, const std::string& path);
 
 }  // namespace quadloop::io

@@ -60,6 +60,7 @@ class CgnsFile {
 /// The first base of a file; meshes are read only from this one.
 struct CgnsBase {
   int cell_dimension = 0, zones = 0;
+  std::string path;  ///< "/Base"
 };
 
 inline CgnsBase first_base(const CgnsFile& file) {
@@ -70,6 +71,7 @@ inline CgnsBase first_base(const CgnsFile& file) {
   if (bases == 0) throw InputError(file.shown() + ": holds no CGNS base");
   file.check(cg_base_read(file.id(), 1, name, &base.cell_dimension, &physical_dimension));
   file.check(cg_nzones(file.id(), 1, &base.zones));
+  base.path = std::string("/") + name;
   return base;
 }
 

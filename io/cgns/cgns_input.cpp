@@ -9,10 +9,12 @@
 #include <unordered_map>
 #include <utility>
 
+#include "io/cgns/cgns_connections.hpp"
 #include "io/cgns/cgns_elements.hpp"
 #include "io/cgns/cgns_faces.hpp"
 #include "io/cgns/cgns_handle.hpp"
 #include "io/cgns/cgns_names.hpp"
+#include "io/cgns/cgns_places.hpp"
 #include "io/cgns/cgns_values.hpp"
 #include "io/model/clean_up.hpp"
 #include "io/model/layers_text.hpp"
@@ -63,24 +65,19 @@ class CgnsFamilies {
 /// Cell rows of each kind.
 using ValuesByKind = std::array<std::vector<double>, cell_kinds>;
 
-/// The nodes of a zone that are nodes of another one, by its name: numbers in the zones, from 1.
-struct ZoneConnection {
-  std::size_t zone;  ///< from 0, in the order of reading
-  std::string donor;
-  std::vector<cgsize_t> nodes, of_donor;
-};
-
 /// Reads one zone into the mesh; its nodes are numbered after the existing ones.
 class ZoneReader {
  public:
-  /// `number`: from 0, in the order of reading.
-  ZoneReader(const File& file, int zone, std::size_t number, bool alone, FileMesh& mesh,
-             CgnsFamilies& families, ValuesByKind& cell_values)
+  /// `number`: from 0, in the order of reading. Reads everything, or only notes the arrays, by ranges.
+  ZoneReader(const File& file, const std::string& base_path, int zone, std::size_t number, bool alone,
+             CgnsContents& contents, CgnsFamilies& families, ValuesByKind& cell_values)
       : file_{file},
+        base_path_{base_path},
         zone_{zone},
         number_{number},
         alone_{alone},
-        mesh_{mesh},
+        contents_{contents},
+        mesh_{contents.mesh},
         families_{families},
         cell_values_{cell_values} {}
 
@@ -88,18 +85,23 @@ class ZoneReader {
 
   void read(std::vector<ZoneConnection>& connections) {
     read_head();
-    read_coordinates();
     int sections = 0;
     file_.check(cg_nsections(file_.id(), 1, zone_, &sections));
-    for (int section = 1; section <= sections; ++section) read_section(section);
+    for (int s = 1; s <= sections && by_ranges(); ++s) contents_.by_ranges = section(s).type != MIXED;
+    read_coordinates();
+    for (int s = 1; s <= sections; ++s) read_section(s);
     faces_.sort();
-    read_connections(connections);
+    CgnsConnections({file_, 1, zone_, nodes_, cells_}, name_, number_, first_node_, faces_)
+        .read(connections, mesh_);
     read_boundaries();
     if (number_ == 0) read_strips();
-    read_solution();
+    by_ranges() ? note_solution() : read_solution();
   }
 
  private:
+  bool by_ranges() const { return contents_.by_ranges; }
+  std::string path() const { return base_path_ + "/" + name_; }
+
   [[noreturn]] void refuse(const std::string& message) const {
     throw InputError(file_.shown() + ": zone " + name_ + ": " + message);
   }
@@ -121,6 +123,7 @@ class ZoneReader {
     first_node_ = mesh_.points.size();
     if (first_node_ + nodes_ > std::numeric_limits<std::int32_t>::max())
       refuse("too many nodes for one rank");
+    contents_.nodes = nodes_;
   }
 
   std::vector<double> coordinate(const char* name) const {
@@ -133,8 +136,9 @@ class ZoneReader {
   void read_coordinates() {
     int coordinates = 0;
     file_.check(cg_ncoords(file_.id(), 1, zone_, &coordinates));
-    const std::vector<double> x = coordinate("CoordinateX"), y = coordinate("CoordinateY");
     const bool has_z = mesh_.dimension == 3 || coordinates > 2;
+    if (by_ranges()) return note_coordinates(has_z);
+    const std::vector<double> x = coordinate("CoordinateX"), y = coordinate("CoordinateY");
     const std::vector<double> z = has_z ? coordinate("CoordinateZ") : std::vector<double>(x.size());
     if (mesh_.dimension == 2 && std::ranges::any_of(z, [](double height) { return height != 0; }))
       refuse("its nodes do not lie in the plane z = 0");
@@ -145,12 +149,15 @@ class ZoneReader {
     }
   }
 
-  std::int32_t node_of(cgsize_t number) const {
-    if (number < 1 || number > nodes_) {
-      refuse("an element names node " + std::to_string(number) + ", which is none of 1 to " +
-             std::to_string(nodes_));
+  void note_coordinates(bool has_z) {
+    const std::string grid = path() + "/GridCoordinates/Coordinate";
+    for (const char* axis : {"X", "Y", "Z"}) {
+      if (*axis != 'Z' || has_z) contents_.coordinates.push_back({grid + axis, nodes_});
     }
-    return static_cast<std::int32_t>(first_node_ + number - 1);
+  }
+
+  std::int32_t node_of(cgsize_t number) const {
+    return node_of_zone(file_, name_, number, nodes_, first_node_);
   }
 
   void add_element(int type, const CgnsShape& shape, std::int64_t element, const cgsize_t* numbers) {
@@ -172,32 +179,54 @@ class ZoneReader {
 
   bool is_read(const CgnsShape& shape) const { return shape.width > 0 && shape.dimension <= mesh_.dimension; }
 
-  void read_section(int section) {
+  struct Section {
     Name name{};
     ElementType_t type = ElementTypeNull;
-    cgsize_t first = 0, last = 0, size = 0;
+    cgsize_t first = 0, last = 0;
+  };
+  Section section(int number) const {
+    Section s;
     int boundary = 0, parents = 0;
-    file_.check(cg_section_read(file_.id(), 1, zone_, section, name.data(), &type, &first, &last, &boundary,
-                                &parents));
+    file_.check(cg_section_read(file_.id(), 1, zone_, number, s.name.data(), &s.type, &s.first, &s.last,
+                                &boundary, &parents));
+    return s;
+  }
+
+  void read_section(int number) {
+    const auto [name, type, first, last] = section(number);
+    cgsize_t size = 0;
     if (type == NODE) return;
     if (type != MIXED && !is_read(shape_of_cgns(type))) {
       refuse("section " + std::string(name.data()) + " holds " + cg_ElementTypeName(type) + "; only " +
              (mesh_.dimension == 3 ? "TETRA_4, PYRA_5, PENTA_6, HEXA_8, " : "") +
              "TRI_3, QUAD_4, BAR_2 and MIXED can be read");
     }
-    file_.check(cg_ElementDataSize(file_.id(), 1, zone_, section, &size));
+    file_.check(cg_ElementDataSize(file_.id(), 1, zone_, number, &size));
     const std::int64_t elements = std::int64_t{last} - first + 1;
     if (first < 1 || elements < 1 || size < 0)
       refuse("section " + std::string(name.data()) + " is said to hold the elements " +
              range_text(first, last));
-    file_.check(cg_goto(file_.id(), 1, "Zone_t", zone_, "Elements_t", section, "end"));
+    file_.check(cg_goto(file_.id(), 1, "Zone_t", zone_, "Elements_t", number, "end"));
     faces_.begin_section(file_.descriptor_here(full_name_descriptor).value_or(name.data()));
+    if (by_ranges() && type != BAR_2) return note_section(name.data(), type, first, elements, size);
     std::vector<cgsize_t> data(size);
     const std::int64_t found =
-        type == MIXED ? read_mixed(section, data, first) : read_rows(section, type, data, first);
+        type == MIXED ? read_mixed(number, data, first) : read_rows(number, type, data, first);
     if (found == elements) return;
     refuse("section " + std::string(name.data()) + " holds " + std::to_string(found) +
            " elements, where its range " + range_text(first, last) + " is of " + std::to_string(elements));
+  }
+
+  /// A section whose nodes are not as many as its range says is not read by ranges.
+  void note_section(const std::string& name, int type, std::int64_t first, std::int64_t elements,
+                    std::int64_t size) {
+    const std::int64_t width = static_cast<std::int64_t>(shape_of_cgns(type).width);
+    CgnsSection& section = contents_.sections.emplace_back();
+    section.kind = type == TRI_3 ? CellKind::triangle : CellKind::quad;
+    section.cells = elements;
+    section.first_row = first;  // until those of all sections are known
+    section.nodes.path = path() + "/" + name + "/ElementConnectivity";
+    if (size == elements * width) section.nodes.count = size;
   }
 
   /// Returns the number of elements of the section.
@@ -299,82 +328,34 @@ class ZoneReader {
     return families_.condition_of(file_, family.data());
   }
 
-  /// Reads the nodes that other zones have too and, in a plane mesh, those on this zone's side of
-  /// connectivities with a Periodic_t node; usually each side has its own.
-  void read_connections(std::vector<ZoneConnection>& connections) {
-    int count = 0;
-    file_.check(cg_nconns(file_.id(), 1, zone_, &count));
-    for (int connection = 1; connection <= count; ++connection) {
-      std::array<float, 3> centre{}, angle{}, shift{};
-      if (cg_conn_periodic_read(file_.id(), 1, zone_, connection, centre.data(), angle.data(),
-                                shift.data()) != CG_OK)
-        read_connection(connection, connections);
-      else if (mesh_.dimension == 2)
-        mark_periodic(connection);
-    }
-  }
-
-  /// What libcgns tells of a GridConnectivity_t node.
-  struct Connectivity {
-    Name name{}, donor{};
-    GridLocation_t location = Vertex;
-    GridConnectivityType_t type = GridConnectivityTypeNull;
-    PointSetType_t set = PointSetTypeNull, donor_set = PointSetTypeNull;
-    cgsize_t count = 0, donors = 0;
-  };
-  Connectivity connectivity(int connection) const {
-    Connectivity c;
-    ZoneType_t donor_zone = ZoneTypeNull;
-    DataType_t donor_type = DataTypeNull;
-    file_.check(cg_conn_info(file_.id(), 1, zone_, connection, c.name.data(), &c.location, &c.type, &c.set,
-                             &c.count, c.donor.data(), &donor_zone, &c.donor_set, &donor_type, &c.donors));
-    return c;
-  }
-
-  /// Takes lists of nodes only: nodes that are connected in other ways are found by their places.
-  void read_connection(int connection, std::vector<ZoneConnection>& connections) const {
-    const auto [name, donor, location, type, set, donor_set, count, donors] = connectivity(connection);
-    const bool lists_nodes = type == Abutting1to1 && location == Vertex && set == PointList &&
-                             donor_set == PointListDonor && count > 0 && count == donors;
-    if (!lists_nodes || donor.data() == name_) return;
-    if (count > nodes_)
-      refuse("connectivity " + std::string(name.data()) + " lists " + std::to_string(count) +
-             " nodes, which is more than there are");
-    ZoneConnection& own = connections.emplace_back();
-    own.zone = number_;
-    own.donor = donor.data();
-    own.nodes.resize(count);
-    own.of_donor.resize(count);
-    file_.check(
-        cg_conn_read(file_.id(), 1, zone_, connection, own.nodes.data(), cgsize_type, own.of_donor.data()));
-  }
-
-  void mark_periodic(int connection) {
-    const Connectivity about = connectivity(connection);
-    const cgsize_t count = about.count;
-    if (count < 1) return;
-    std::vector<cgsize_t> numbers(count);
-    file_.check(cg_conn_read_short(file_.id(), 1, zone_, connection, numbers.data()));
-    if (about.set == PointRange && count == 2) {
-      if (numbers[1] - numbers[0] > std::max<std::int64_t>(nodes_, faces_.size()))
-        refuse("connectivity " + std::string(about.name.data()) + " is of " +
-               range_text(numbers[0], numbers[1]) + ", which is more than there are");
-      for (cgsize_t number = numbers[0] + 1; number < numbers[1]; ++number) numbers.push_back(number);
-    }
-    for (const cgsize_t number : numbers) {
-      if (about.location == Vertex)
-        mesh_.periodic_nodes.push_back(node_of(number));
-      else if (const auto edge = faces_.find(number))
-        mesh_.periodic_nodes.insert(mesh_.periodic_nodes.end(), edge->begin(), edge->begin() + 2);
-    }
-  }
-
   void read_strips() {
     file_.check(cg_goto(file_.id(), 1, "Zone_t", zone_, "end"));
     const std::string text = file_.descriptor_here(strips_descriptor).value_or("");
     mesh_.strips = strips_in_comments(text, static_cast<std::int32_t>(nodes_)).strips;
     mesh_.pairs = pairs_in_comments(text);
     mesh_.named_nodes = nodes_in_comments(text, static_cast<std::int32_t>(nodes_));
+  }
+
+  /// Values in cells are in the order of the elements. Returns how many cells there are; unknown if two have
+  /// the same number.
+  std::int64_t find_first_rows() const {
+    std::vector<CgnsSection*> sections;
+    for (CgnsSection& section : contents_.sections) sections.push_back(&section);
+    std::ranges::sort(sections, {}, &CgnsSection::first_row);
+    std::int64_t cells = 0, next_element = 1;
+    bool distinct = true;
+    for (CgnsSection* const section : sections) {
+      distinct = distinct && section->first_row >= next_element;
+      next_element = section->first_row + section->cells;
+      section->first_row = cells;
+      cells += section->cells;
+    }
+    return distinct ? cells : CgnsArray::unknown;
+  }
+
+  void note_solution() {
+    Field names = note_cgns_values({file_, 1, zone_, nodes_, cells_}, path(), find_first_rows(), contents_);
+    if (!names.empty()) mesh_.solution = std::move(names);
   }
 
   void read_solution() {
@@ -398,12 +379,12 @@ class ZoneReader {
     }
   }
 
-  static constexpr DataType_t cgsize_type = sizeof(cgsize_t) == 4 ? Integer : LongInteger;
-
   const File& file_;
+  std::string base_path_;
   int zone_;
   std::size_t number_;
   bool alone_;  ///< whether the file has no other zone
+  CgnsContents& contents_;
   FileMesh& mesh_;
   CgnsFamilies& families_;
   ValuesByKind& cell_values_;
@@ -431,31 +412,6 @@ std::vector<int> zones_in_order(const File& file, int zones) {
   return sorted;
 }
 
-/// Returns the pairs of equal nodes, numbered over all zones.
-NodeLinks links_of(const std::vector<ZoneConnection>& connections, const std::vector<std::string>& names,
-                   const std::vector<std::size_t>& first_nodes, std::size_t nodes, const std::string& path) {
-  const auto number_of = [&](std::size_t zone, cgsize_t node) {
-    const std::size_t end = zone + 1 < first_nodes.size() ? first_nodes[zone + 1] : nodes;
-    if (node < 1 || node > std::int64_t(end - first_nodes[zone]))
-      throw InputError(path + ": zone " + names[zone] + ": a connectivity names node " +
-                       std::to_string(node) + ", which is none of 1 to " +
-                       std::to_string(end - first_nodes[zone]));
-    return static_cast<std::int32_t>(first_nodes[zone] + node - 1);
-  };
-  NodeLinks links;
-  for (const ZoneConnection& connection : connections) {
-    const std::size_t donor = std::ranges::find(names, connection.donor) - names.begin();
-    if (donor == names.size())
-      throw InputError(path + ": zone " + names[connection.zone] + " is connected with zone " +
-                       connection.donor + ", which does not exist");
-    links.zones.insert({std::min(donor, connection.zone), std::max(donor, connection.zone)});
-    for (std::size_t i = 0; i < connection.nodes.size(); ++i)
-      links.nodes.push_back(
-          {number_of(connection.zone, connection.nodes[i]), number_of(donor, connection.of_donor[i])});
-  }
-  return links;
-}
-
 void require_whole_solution(const FileMesh& mesh, const std::string& path) {
   if (!mesh.solution) return;
   const auto& [names, values, constants, cells] = *mesh.solution;
@@ -465,15 +421,16 @@ void require_whole_solution(const FileMesh& mesh, const std::string& path) {
   throw InputError(path + ": some of its zones have a solution, others none");
 }
 
-}  // namespace
-
-FileMesh read_cgns_by_library(const std::string& path) {
+/// Reads the file; a plane mesh of one zone, if allowed, by ranges.
+CgnsContents contents_of(const std::string& path, bool may_be_by_ranges) {
   const File file(path, path);
-  const auto [cell_dimension, zones] = first_base(file);
+  const auto [cell_dimension, zones, base_path] = first_base(file);
   if (cell_dimension != 2 && cell_dimension != 3)
     throw InputError(path + ": its cells are " + std::to_string(cell_dimension) + "D; 2D and 3D can be read");
   if (zones == 0) throw InputError(path + ": holds no zone");
-  FileMesh mesh;
+  CgnsContents contents;
+  contents.by_ranges = may_be_by_ranges && cell_dimension == 2 && zones == 1;
+  FileMesh& mesh = contents.mesh;
   mesh.dimension = cell_dimension;
   CgnsFamilies families;
   ValuesByKind cell_values;
@@ -482,10 +439,12 @@ FileMesh read_cgns_by_library(const std::string& path) {
   std::vector<ZoneConnection> connections;
   for (const int zone : zones_in_order(file, zones)) {
     first_nodes.push_back(mesh.points.size());
-    ZoneReader reader(file, zone, first_nodes.size() - 1, zones == 1, mesh, families, cell_values);
+    ZoneReader reader(file, base_path, zone, first_nodes.size() - 1, zones == 1, contents, families,
+                      cell_values);
     reader.read(connections);
     names.push_back(reader.name());
   }
+  if (contents.by_ranges) return contents;
   for (const std::vector<double>& values : cell_values) {
     if (mesh.solution) std::ranges::copy(values, std::back_inserter(mesh.solution->cells.values));
   }
@@ -494,7 +453,15 @@ FileMesh read_cgns_by_library(const std::string& path) {
     unite_nodes(mesh, first_nodes, links_of(connections, names, first_nodes, mesh.points.size(), path));
   if (cell_dimension == 3 && zones > 1) drop_inner_faces(mesh);
   if (cell_dimension == 3) drop_empty_groups(mesh);
-  return mesh;
+  return contents;
+}
+
+}  // namespace
+
+CgnsContents read_cgns_by_library(const std::string& path, bool may_be_by_ranges) {
+  CgnsContents contents = contents_of(path, may_be_by_ranges);
+  if (!contents.by_ranges || find_places(path, contents)) return contents;
+  return contents_of(path, false);
 }
 
 }  // namespace quadloop::io

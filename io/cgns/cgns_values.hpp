@@ -3,8 +3,10 @@
 // For io/cgns only.
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
+#include "io/cgns/cgns_contents.hpp"
 #include "io/cgns/cgns_handle.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/mesh/field.hpp"
@@ -22,5 +24,11 @@ struct CgnsZone {
 /// each kind of cells, its element numbers in the zone; rows are ordered by kind, then in the order of these.
 /// Throws InputError.
 Field read_cgns_values(const CgnsZone& zone, std::span<const std::vector<std::int64_t>> elements);
+
+/// Returns the names of the variables that read_cgns_values() reads, and appends their arrays. `path` is that
+/// of the zone; `cells` are in its sections: if these are not as many as declared, or unknown, values in
+/// cells cannot be read by ranges. Throws InputError.
+Field note_cgns_values(const CgnsZone& zone, const std::string& path, std::int64_t cells,
+                       CgnsContents& contents);
 
 }  // namespace quadloop::io

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <functional>
 #include <map>
 #include <numeric>
 #include <set>
@@ -11,6 +10,7 @@
 #include <tuple>
 #include <utility>
 
+#include "io/model/inner_curves.hpp"
 #include "io/model/mesh_of_file.hpp"
 #include "io/model/orient_cells.hpp"
 #include "io/model/repeated_rows.hpp"
@@ -227,15 +227,20 @@ void drop_repeated(FileMesh& mesh, const std::string& path, const GroupSizes& si
   warn_of_repeated(repeated, path, mesh.warnings);
 }
 
+bool refers_to_nodes(const FileMesh& mesh, std::int64_t nodes) {
+  bool good = true;
+  const auto visit = [&](std::int64_t node) { good = good && node >= 0 && node < nodes; };
+  for_each_named_node(mesh, visit);
+  std::ranges::for_each(mesh.periodic_nodes, visit);
+  for (const NamedNode& named : mesh.named_nodes) visit(named.node.value());
+  return good;
+}
+
 void require_consistent(const FileMesh& mesh, const std::string& path) {
   const auto is_in = [](std::int64_t number, const auto& list) {
     return number >= 0 && number < std::ssize(list);
   };
-  bool good = true;
-  const auto visit = [&](std::int32_t node) { good = good && is_in(node, mesh.points); };
-  for_each_named_node(mesh, visit);
-  std::ranges::for_each(mesh.periodic_nodes, visit);
-  for (const NamedNode& named : mesh.named_nodes) good = good && is_in(named.node.value(), mesh.points);
+  bool good = refers_to_nodes(mesh, std::ssize(mesh.points));
   for_each_kind([&]<CellKind kind>() {
     const std::vector<std::int32_t>& blocks = mesh.cell_to_block[static_cast<std::size_t>(kind)];
     good = good && blocks.size() == cells_of<kind>(mesh).size();
@@ -339,29 +344,6 @@ void keep_first_mentions(LoadedMesh& loaded) {
     });
   }
   std::erase_if(mesh.boundaries, [](const BoundaryEdges& boundary) { return boundary.edges.empty(); });
-}
-
-void separate_inner_curves(LoadedMesh& loaded, const EdgeTable& table, const std::string& path) {
-  const auto is_inside = [&](const std::array<NodeId, 2>& edge) {
-    const std::int32_t left = table.cell_left_of(edge[0], edge[1]),
-                       right = table.cell_left_of(edge[1], edge[0]);
-    return left >= 0 && right >= 0 && block_of_cell(loaded, left) == block_of_cell(loaded, right);
-  };
-  std::vector<std::string> names;
-  std::size_t count = 0;
-  for (BoundaryEdges& boundary : loaded.mesh.boundaries) {
-    const auto inner = std::ranges::stable_partition(boundary.edges, std::not_fn(is_inside));
-    if (inner.empty()) continue;
-    names.push_back(boundary.name);
-    count += inner.size();
-    loaded.inner_curves.push_back({boundary.name, {}, {inner.begin(), inner.end()}});
-    boundary.edges.erase(inner.begin(), inner.end());
-  }
-  if (names.empty()) return;
-  std::erase_if(loaded.mesh.boundaries, [](const BoundaryEdges& boundary) { return boundary.edges.empty(); });
-  loaded.warnings.push_back(fmt::format("{}: {} between two cells {} to inner lines, not to boundaries: {}",
-                                        path, counted(count, "edge"), count == 1 ? "belongs" : "belong",
-                                        some_names(names)));
 }
 
 void drop_empty_groups(FileMesh& mesh) {

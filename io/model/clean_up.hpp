@@ -10,7 +10,6 @@
 #include "io/model/file_mesh.hpp"
 #include "io/model/loaded_mesh.hpp"
 #include "io/text/text_scanner.hpp"
-#include "mesher/mesh/topology.hpp"
 
 namespace quadloop::io {
 
@@ -49,10 +48,6 @@ void drop_inner_faces(FileMesh& mesh);
 /// Keeps each edge between two blocks once: its first occurrence, with the cell of the smaller block on its
 /// left. A file of several zones has it in both.
 void keep_first_mentions(LoadedMesh& loaded);
-
-/// Moves the boundary edges inside a block to inner curves of the same names, with a warning that names them;
-/// boundaries without other edges are removed. `table` has the edges of the mesh.
-void separate_inner_curves(LoadedMesh& loaded, const EdgeTable& table, const std::string& path);
 
 /// Removes blocks without cells, and boundaries without faces.
 void drop_empty_groups(FileMesh& mesh);

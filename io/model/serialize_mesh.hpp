@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "io/files/reading/value_pipe.hpp"
@@ -46,5 +47,8 @@ void pass_fields(Pipe& pipe, FileMesh& mesh) {
 /// its numbers of values do not match those of nodes and cells: a damaged file may have corrupted the process
 /// that read it.
 void require_consistent(const FileMesh& mesh, const std::string& path);
+
+/// Whether a mesh refers only to the nodes 0 to `nodes - 1`.
+bool refers_to_nodes(const FileMesh& mesh, std::int64_t nodes);
 
 }  // namespace quadloop::io

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "io/model/clean_up.hpp"
+#include "io/model/inner_curves.hpp"
 #include "io/model/orient_cells.hpp"
 #include "mesher/base/counted.hpp"
 #include "mesher/mesh/topology.hpp"

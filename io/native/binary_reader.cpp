@@ -11,9 +11,9 @@
 
 #include "io/files/binary_output.hpp"
 #include "io/files/reading/input_file.hpp"
+#include "io/model/file_part.hpp"
 #include "io/native/binary_file.hpp"
 #include "io/native/binary_header.hpp"
-#include "io/native/native_parts.hpp"
 #include "io/text/name_index.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/parallel/even_shares.hpp"
@@ -37,7 +37,7 @@ class BinaryReader {
       header_ = header_of_text(head, file_->size(), path_);
       require_limits();
     });
-    NativeParts parts(comm_, path_, read_points());
+    FilePart parts(comm_, path_, read_points());
     if (header_.node_bytes == 4)
       read_connectivity<std::int32_t>(parts);
     else
@@ -146,7 +146,7 @@ class BinaryReader {
   }
 
   template <class Number>
-  void read_connectivity(NativeParts& parts) {
+  void read_connectivity(FilePart& parts) {
     const auto cell = [](const char* of) {
       return [of](std::int64_t row) { return fmt::format("{} {}", of, row); };
     };

@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "io/files/reading/relay.hpp"
+#include "io/model/file_part.hpp"
 #include "io/native/native_file.hpp"
 #include "io/native/native_layout.hpp"
-#include "io/native/native_parts.hpp"
 #include "io/text/range_tokens.hpp"
 #include "io/text/tokens.hpp"
 #include "mesher/base/error.hpp"
@@ -30,7 +30,7 @@ class NativeReader {
       read_rows();
       if (fault_) throw InputError(path_ + ":" + std::to_string(fault_->line) + ": " + fault_->message);
     });
-    NativeParts parts(comm_, path_, points());
+    FilePart parts(comm_, path_, points());
     parts.set_blocks(layout_.block_names, rows_by_section(NativeArray::triangles),
                      rows_by_section(NativeArray::quads));
     parts.add_triangles(nodes(NativeArray::triangles, 3));

@@ -22,7 +22,7 @@ namespace {
 
 LoadedMesh read_piece(const std::string& path, const std::string& format) {
   if (format == "mesh") return read_native(Communicator(MPI_COMM_SELF), path);
-  if (format == "cgns") return plane_of(read_cgns(path), path);
+  if (format == "cgns") return plane_of(read_cgns(Communicator(MPI_COMM_SELF), path), path);
   return plane_of(read_vtu(path), path);
 }
 

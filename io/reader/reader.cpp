@@ -74,7 +74,8 @@ void answer(const Read& read) {
 void answer_to(const std::vector<std::string>& arguments) {
   const std::string& path = arguments.at(3);
   if (arguments.at(2) == "cgns") {
-    answer([&] { return read_cgns_by_library(path); });
+    const bool whole = arguments.size() > 4 && arguments[4] == "whole";
+    answer([&] { return read_cgns_by_library(path, !whole); });
   } else {
     answer([&] { return read_tree_share(path, std::stoll(arguments.at(4)), std::stoll(arguments.at(5))); });
   }

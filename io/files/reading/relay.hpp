@@ -40,26 +40,42 @@ class PackedReader {
   std::span<const std::byte> packed_;
 };
 
+/// Returns a value as bytes, and from them.
+template <class Value>
+std::vector<std::byte> packed(Value& value) {
+  PackedWriter writer;
+  pass(writer, value);
+  return std::move(writer.packed);
+}
+template <class Value>
+Value unpacked(std::span<const std::byte> bytes) {
+  Value value{};
+  PackedReader reader(bytes);
+  pass(reader, value);
+  return value;
+}
+
+/// Gives every rank the value of one rank. *Collective.*
+template <class Value>
+void broadcast_value(const Communicator& comm, Value& value, int from = 0) {
+  if (comm.size() == 1) return;
+  std::vector<std::byte> bytes;
+  if (comm.rank() == from) bytes = packed(value);
+  comm.broadcast(bytes, from);
+  if (comm.rank() != from) value = unpacked<Value>(bytes);
+}
+
 /// Lets the ranks continue the work on a value one after another, in their order: `work(value)`, which should
 /// be short and must not throw. The value before, which is used on the first rank only, is the same type's
 /// default. Returns the last rank's result on all ranks. *Collective.*
 template <class Value, class Work>
 Value relay(const Communicator& comm, const Work& work) {
-  const auto unpacked = [](std::span<const std::byte> bytes) {
-    Value value{};
-    PackedReader reader(bytes);
-    pass(reader, value);
-    return value;
-  };
   const int last = comm.size() - 1;
-  Value value = comm.is_root() ? Value{} : unpacked(comm.receive_bytes(comm.rank() - 1));
+  Value value = comm.is_root() ? Value{} : unpacked<Value>(comm.receive_bytes(comm.rank() - 1));
   work(value);
-  if (last == 0) return value;
-  PackedWriter writer;
-  pass(writer, value);
-  if (comm.rank() < last) comm.send_bytes(writer.packed, comm.rank() + 1);
-  comm.broadcast(writer.packed, last);
-  return comm.rank() == last ? std::move(value) : unpacked(writer.packed);
+  if (comm.rank() < last) comm.send_bytes(packed(value), comm.rank() + 1);
+  broadcast_value(comm, value, last);
+  return value;
 }
 
 }  // namespace quadloop::io

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <span>
 #include <utility>
 #include <vector>
@@ -25,6 +26,19 @@ struct EvenShare {
         end{even_begin(rows, comm.rank() + 1, comm.size())} {}
   std::int64_t size() const { return end - begin; }
 };
+
+/// Calls `visit(list, first, rows)` for each list with rows in this rank's share of the rows of all lists,
+/// one after another: `rows` of the list, from `first`.
+template <class Visit>
+void for_share_of_lists(const Communicator& comm, std::span<const std::int64_t> counts, const Visit& visit) {
+  const EvenShare share(comm, std::accumulate(counts.begin(), counts.end(), std::int64_t{0}));
+  std::int64_t before = 0;
+  for (std::size_t list = 0; list < counts.size(); before += counts[list++]) {
+    const std::int64_t begin = std::max(before, share.begin),
+                       end = std::min(before + counts[list], share.end);
+    if (begin < end) visit(list, begin - before, end - begin);
+  }
+}
 
 /// Moves values, which are in the order of ranks, such that this rank has `count` of them, in the same order.
 /// Over all ranks, as many are wanted as there are. *Collective.*

@@ -141,6 +141,15 @@ std::size_t boundary_edges(const Mesh& mesh) {
   return edges;
 }
 
+/// The cells to the left of boundary edges, or to the right. *Collective.*
+std::vector<std::int64_t> cells_beside_boundaries(const Communicator& comm, const Mesh& mesh, bool right) {
+  std::vector<std::int64_t> cells(boundary_edges(mesh), EdgeCells::none);
+  Questions questions;
+  OwnEdges(comm, mesh).fill_boundary(right, cells, questions);
+  ask(comm, questions);
+  return cells;
+}
+
 }  // namespace
 
 EdgeCells edge_cells(const Communicator& comm, const Mesh& mesh) {
@@ -157,12 +166,12 @@ EdgeCells edge_cells(const Communicator& comm, const Mesh& mesh) {
   return cells;
 }
 
+std::vector<std::int64_t> cells_left_of_boundaries(const Communicator& comm, const Mesh& mesh) {
+  return cells_beside_boundaries(comm, mesh, false);
+}
+
 std::vector<std::int64_t> cells_right_of_boundaries(const Communicator& comm, const Mesh& mesh) {
-  std::vector<std::int64_t> right(boundary_edges(mesh), EdgeCells::none);
-  Questions questions;
-  OwnEdges(comm, mesh).fill_boundary(true, right, questions);
-  ask(comm, questions);
-  return right;
+  return cells_beside_boundaries(comm, mesh, true);
 }
 
 }  // namespace quadloop

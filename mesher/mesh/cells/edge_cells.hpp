@@ -23,8 +23,9 @@ struct EdgeCells {
 /// *Collective.*
 EdgeCells edge_cells(const Communicator& comm, const Mesh& mesh);
 
-/// For each boundary edge, boundary after boundary, the cell to its right: none on an outer boundary.
-/// *Collective.*
+/// For each boundary edge, boundary after boundary, the cell to its left, or to its right: none on an outer
+/// boundary. Where cells overlap, one of several. *Collective.*
+std::vector<std::int64_t> cells_left_of_boundaries(const Communicator& comm, const Mesh& mesh);
 std::vector<std::int64_t> cells_right_of_boundaries(const Communicator& comm, const Mesh& mesh);
 
 }  // namespace quadloop

@@ -12,12 +12,14 @@
 #include "io/native/binary_file.hpp"
 #include "io/native/native_file.hpp"
 #include "mesher/base/error.hpp"
+#include "tests/io/same_mesh.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop::io {
 namespace {
 
+using test::expect_same;
 using test::TemporaryFolder;
 using test::world;
 
@@ -35,38 +37,6 @@ const std::string two_blocks =
     "#Number of constants\n2\n0.5 7\n#Number of variables\n2\n#names: a b\n"
     "1 2\n3 4 5 6\n7 8 9 10 11 12\n13 14\n15 16\n#Number of cell variables\n1\n#names: rank\n1 2\n3 4 5\n# "
     "end";
-
-void expect_same(const LoadedMesh& found, const LoadedMesh& wanted) {
-  EXPECT_EQ(found.mesh.points, wanted.mesh.points);
-  EXPECT_EQ(found.mesh.triangles, wanted.mesh.triangles);
-  EXPECT_EQ(found.mesh.quads, wanted.mesh.quads);
-  EXPECT_EQ(found.blocks, wanted.blocks);
-  EXPECT_EQ(found.block_names, wanted.block_names);
-  EXPECT_EQ(found.triangle_to_block, wanted.triangle_to_block);
-  EXPECT_EQ(found.quad_to_block, wanted.quad_to_block);
-  const auto expect_same_edges = [](const std::vector<BoundaryEdges>& some,
-                                    const std::vector<BoundaryEdges>& others) {
-    ASSERT_EQ(some.size(), others.size());
-    for (std::size_t b = 0; b < some.size(); ++b) {
-      EXPECT_EQ(some[b].name, others[b].name);
-      EXPECT_EQ(some[b].edges, others[b].edges);
-      EXPECT_EQ(some[b].layers, others[b].layers);
-    }
-  };
-  expect_same_edges(found.mesh.boundaries, wanted.mesh.boundaries);
-  expect_same_edges(found.inner_curves, wanted.inner_curves);
-  EXPECT_EQ(found.mesh.strips, wanted.mesh.strips);
-  EXPECT_EQ(found.mesh.pairs, wanted.mesh.pairs);
-  EXPECT_EQ(found.mesh.named_nodes, wanted.mesh.named_nodes);
-  EXPECT_EQ(found.warnings, wanted.warnings);
-  ASSERT_EQ(found.solution.has_value(), wanted.solution.has_value());
-  if (!found.solution) return;
-  EXPECT_EQ(found.solution->names, wanted.solution->names);
-  EXPECT_EQ(found.solution->values, wanted.solution->values);
-  EXPECT_EQ(found.solution->constants, wanted.solution->constants);
-  EXPECT_EQ(found.solution->cells.names, wanted.solution->cells.names);
-  EXPECT_EQ(found.solution->cells.values, wanted.solution->cells.values);
-}
 
 /// Reads with all ranks and with one; compares what they get.
 void expect_as_one_rank(const std::string& text, std::size_t piece, bool readable) {

@@ -15,6 +15,7 @@
 #include <numeric>
 #include <thread>
 
+#include "io/cgns/cgns_contents.hpp"
 #include "io/files/output_path.hpp"
 #include "io/files/reading/input_file.hpp"
 #include "io/files/reading/value_pipe.hpp"
@@ -206,7 +207,7 @@ TEST_F(ReadSeparately, AReaderThatIsNotThereOrNotOursIsNamed) {
 }
 
 TEST_F(ReadSeparately, IsDoneByTheProgramOfThisBuild) {
-  const std::string refused = test::refusal_text<Error>([&] { read_separately<FileMesh>("cgns", path); });
+  const std::string refused = test::refusal_text<Error>([&] { read_separately<CgnsContents>("cgns", path); });
   EXPECT_TRUE(says(refused, "a.cgns: the CGNS library refuses: ")) << refused;
   const std::string no_tree = test::refusal_text<Error>([&] {
     read_separately<TreeShare>("tree", path, {"0", "1"});

@@ -16,10 +16,10 @@ namespace quadloop::io {
 
 /// Builds a rank's part of a mesh in a native file from its even shares of the arrays. Global node numbers
 /// are those of the file, from 0. All other arguments are the same on all ranks.
-class NativeParts {
+class FilePart {
  public:
   /// `path` is for warnings. *Collective.*
-  NativeParts(const Communicator& comm, const std::string& path, std::vector<Point> points)
+  FilePart(const Communicator& comm, const std::string& path, std::vector<Point> points)
       : comm_{comm}, path_{path}, builder_{comm, std::move(points)} {}
 
   /// The blocks with their numbers of cells.

@@ -1,8 +1,7 @@
-#include "io/native/native_parts.hpp"
+#include "io/model/file_part.hpp"
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 #include "io/model/line_text.hpp"
@@ -15,20 +14,9 @@ namespace quadloop::io {
 
 namespace {
 
-/// Calls `visit(list, rows)` for each list with rows in this rank's share of the rows of all lists.
-template <class Visit>
-void for_share_of_lists(const Communicator& comm, std::span<const std::int64_t> counts, const Visit& visit) {
-  const EvenShare share(comm, std::accumulate(counts.begin(), counts.end(), std::int64_t{0}));
-  std::int64_t first = 0;
-  for (std::size_t list = 0; list < counts.size(); first += counts[list++]) {
-    const std::int64_t begin = std::max(first, share.begin), end = std::min(first + counts[list], share.end);
-    if (begin < end) visit(list, end - begin);
-  }
-}
-
 std::vector<std::int32_t> blocks_of_share(const Communicator& comm, std::span<const std::int64_t> counts) {
   std::vector<std::int32_t> blocks;
-  for_share_of_lists(comm, counts, [&](std::size_t block, std::int64_t rows) {
+  for_share_of_lists(comm, counts, [&](std::size_t block, std::int64_t, std::int64_t rows) {
     blocks.insert(blocks.end(), rows, static_cast<std::int32_t>(block));
   });
   return blocks;
@@ -47,8 +35,8 @@ void append_rows(std::span<const GlobalNodeId> nodes, PartBuilder& builder,
 
 }  // namespace
 
-void NativeParts::set_blocks(std::vector<std::string> names, std::span<const std::int64_t> triangles,
-                             std::span<const std::int64_t> quads) {
+void FilePart::set_blocks(std::vector<std::string> names, std::span<const std::int64_t> triangles,
+                          std::span<const std::int64_t> quads) {
   loaded_.blocks = static_cast<std::int32_t>(names.size());
   loaded_.block_names = std::move(names);
   loaded_.triangle_to_block = blocks_of_share(comm_, triangles);
@@ -57,38 +45,37 @@ void NativeParts::set_blocks(std::vector<std::string> names, std::span<const std
   builder_.part().quads.reserve(loaded_.quad_to_block.size());
 }
 
-void NativeParts::add_triangles(std::span<const GlobalNodeId> nodes) {
+void FilePart::add_triangles(std::span<const GlobalNodeId> nodes) {
   append_rows(nodes, builder_, builder_.part().triangles);
 }
 
-void NativeParts::add_quads(std::span<const GlobalNodeId> nodes) {
+void FilePart::add_quads(std::span<const GlobalNodeId> nodes) {
   append_rows(nodes, builder_, builder_.part().quads);
 }
 
-void NativeParts::add_boundary(const std::string& name, BoundaryCondition condition,
-                               const WallLayers& layers) {
+void FilePart::add_boundary(const std::string& name, BoundaryCondition condition, const WallLayers& layers) {
   builder_.part().boundaries.push_back({name, condition, {}, layers});
 }
 
 /// Entries of inner lines are below 0.
-std::int32_t NativeParts::add_inner_line(const std::string& name) {
+std::int32_t FilePart::add_inner_line(const std::string& name) {
   loaded_.inner_curves.push_back({.name = name, .condition = {}, .edges = {}});
   return -static_cast<std::int32_t>(loaded_.inner_curves.size());
 }
 
-BoundaryEdges& NativeParts::boundary_or_line(std::int32_t entry) {
+BoundaryEdges& FilePart::boundary_or_line(std::int32_t entry) {
   return entry < 0 ? loaded_.inner_curves[-entry - 1] : builder_.part().boundaries[entry];
 }
 
-void NativeParts::set_edges(std::span<const GlobalNodeId> nodes, std::span<const std::int32_t> entries,
-                            std::span<const std::int64_t> counts) {
-  for_share_of_lists(comm_, counts, [&](std::size_t list, std::int64_t count) {
+void FilePart::set_edges(std::span<const GlobalNodeId> nodes, std::span<const std::int32_t> entries,
+                         std::span<const std::int64_t> counts) {
+  for_share_of_lists(comm_, counts, [&](std::size_t list, std::int64_t, std::int64_t count) {
     append_rows(nodes.first(2 * count), builder_, boundary_or_line(entries[list]).edges);
     nodes = nodes.subspan(2 * count);
   });
 }
 
-void NativeParts::add_comments(std::string_view comments, std::int64_t nodes) {
+void FilePart::add_comments(std::string_view comments, std::int64_t nodes) {
   const auto most =
       static_cast<std::int32_t>(std::min<std::int64_t>(nodes, std::numeric_limits<std::int32_t>::max()));
   std::vector<BoundaryEdges> lines = lines_in_comments(comments, most);
@@ -115,7 +102,7 @@ void NativeParts::add_comments(std::string_view comments, std::int64_t nodes) {
         "' does not list the nodes of a strip; its cells are treated as ordinary cells");
 }
 
-LoadedMesh NativeParts::finish(std::optional<Field> solution) {
+LoadedMesh FilePart::finish(std::optional<Field> solution) {
   loaded_.mesh = builder_.finish(comm_);
   loaded_.solution = std::move(solution);
   return std::move(loaded_);
