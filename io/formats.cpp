@@ -22,6 +22,7 @@
 #include "io/su2/su2_csv_file.hpp"
 #include "io/su2/su2_dat_file.hpp"
 #include "io/su2/su2_file.hpp"
+#include "io/su2/su2_ranges.hpp"
 #include "io/ugrid/ugrid_file.hpp"
 #include "io/ugrid/ugrid_plane_file.hpp"
 #include "io/vtu/pvtu_file.hpp"
@@ -50,6 +51,29 @@ MeshOfFile read_at_root(const Communicator& comm, const std::string& path) {
     if (comm.is_root()) whole = read(path);
   });
   return distributed(comm, std::move(whole));
+}
+
+bool is_regular_file(const Communicator& comm, const std::string& path) {
+  std::error_code failure;
+  return comm.any(comm.is_root() && std::filesystem::is_regular_file(path, failure));
+}
+
+/// Reads a file of the usual form by ranges. Any other one, for which `by_ranges` throws, and a pipe, the
+/// root reads alone, whole, also to name the first error.
+template <LoadedMesh (*by_ranges)(const Communicator&, const std::string&),
+          MeshOfFile (*whole)(const std::string&)>
+MeshOfFile read_by_ranges(const Communicator& comm, const std::string& path) {
+  if (is_regular_file(comm, path)) {
+    try {
+      return by_ranges(comm, path);
+    } catch (const InputError&) {  // on all ranks
+    }
+  }
+  return read_at_root<whole>(comm, path);
+}
+
+LoadedMesh read_su2_by_ranges(const Communicator& comm, const std::string& path) {
+  return read_su2_ranges(comm, path);
 }
 
 /// Gmsh and Fluent files have the same suffix; a pipe is assumed to be Gmsh.
@@ -190,7 +214,7 @@ FileFormat su2_row() {
   return {.name = "su2",
           .places = {Content::mesh, Content::blocks, Content::block_names, Content::pairs, Content::mesh3d},
           .bytes_of_cell = {65, 44},
-          .read = read_at_root<read_su2>,
+          .read = read_by_ranges<read_su2_by_ranges, read_su2>,
           .write = write_su2,
           .boundary_names = su2_marker_names,
           .single_block_name = false,

@@ -83,4 +83,11 @@ void separate_inner_curves(const Communicator& comm, LoadedMesh& loaded, const s
       loaded, path);
 }
 
+void drop_empty_boundaries(const Communicator& comm, Mesh& mesh) {
+  std::vector<std::int64_t> edges;
+  for (const BoundaryEdges& boundary : mesh.boundaries) edges.push_back(std::ssize(boundary.edges));
+  edges = sums(comm, edges);
+  std::erase_if(mesh.boundaries, [&, b = std::size_t{0}](const auto&) mutable { return edges[b++] == 0; });
+}
+
 }  // namespace quadloop::io

@@ -16,4 +16,7 @@ void separate_inner_curves(LoadedMesh& loaded, const EdgeTable& table, const std
 /// The same for a distributed mesh of one block. *Collective.*
 void separate_inner_curves(const Communicator& comm, LoadedMesh& loaded, const std::string& path);
 
+/// Removes boundaries without edges on any rank. *Collective.*
+void drop_empty_boundaries(const Communicator& comm, Mesh& mesh);
+
 }  // namespace quadloop::io

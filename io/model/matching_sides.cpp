@@ -5,6 +5,8 @@
 #include <tuple>
 #include <utility>
 
+#include "mesher/mesh/scatter_mesh.hpp"
+
 namespace quadloop::io {
 
 namespace {
@@ -85,11 +87,8 @@ const OpenSide* partner_of(const OpenSide& side, const std::vector<OpenSide>& si
   return nullptr;
 }
 
-}  // namespace
-
-std::vector<NodeId> nodes_of_matching_sides(const Mesh& mesh) {
-  Box box;
-  for (const Point p : mesh.points) box.include(p);
+/// The box is that of all nodes.
+std::vector<NodeId> matching_nodes(const Mesh& mesh, const Box& box) {
   const double enough = matching * std::max(box.width(), box.height());
   const std::vector<OpenSide> sides = open_sides(mesh, enough);
   std::vector<NodeId> nodes;
@@ -99,6 +98,49 @@ std::vector<NodeId> nodes_of_matching_sides(const Mesh& mesh) {
   }
   std::ranges::sort(nodes);
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
+}
+
+Box box_of(const Mesh& mesh) {
+  Box box;
+  for (const Point p : mesh.points) box.include(p);
+  return box;
+}
+
+/// Returns the global numbers of all boundary nodes on the root, ascending. *Collective.*
+std::vector<GlobalNodeId> boundary_nodes(const Communicator& comm, const Mesh& mesh) {
+  std::vector<GlobalNodeId> nodes;
+  for (const BoundaryEdges& boundary : mesh.boundaries) {
+    for (const auto& [from, to] : boundary.edges)
+      nodes.insert(nodes.end(), {mesh.global(from), mesh.global(to)});
+  }
+  nodes = gather_at_root(comm, nodes);
+  std::ranges::sort(nodes);
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
+}
+
+}  // namespace
+
+std::vector<NodeId> nodes_of_matching_sides(const Mesh& mesh) { return matching_nodes(mesh, box_of(mesh)); }
+
+std::vector<NodeId> nodes_of_matching_sides(const Communicator& comm, const Mesh& mesh) {
+  if (comm.size() == 1) return nodes_of_matching_sides(mesh);
+  const Box own = box_of(mesh);
+  const Box box{{comm.minimum(own.low.x), comm.minimum(own.low.y)},
+                {comm.maximum(own.high.x), comm.maximum(own.high.y)}};
+  const Mesh boundaries = gather_boundaries(comm, mesh);
+  const std::vector<GlobalNodeId> globals = boundary_nodes(comm, mesh);
+  std::vector<GlobalNodeId> found;
+  if (comm.is_root()) {
+    for (const NodeId node : matching_nodes(boundaries, box)) found.push_back(globals[node.value()]);
+  }
+  comm.broadcast(found);
+  std::vector<NodeId> nodes;
+  for (const GlobalNodeId node : found) {
+    if (const std::int64_t at = node.value() - mesh.first_node; at >= 0 && at < mesh.owned_nodes)
+      nodes.emplace_back(static_cast<std::int32_t>(at));
+  }
   return nodes;
 }
 

@@ -1,9 +1,13 @@
 #include "io/model/orient_cells.hpp"
 
 #include <algorithm>
+#include <array>
+#include <span>
 #include <tuple>
+#include <vector>
 
 #include "mesher/base/parity_sets.hpp"
+#include "mesher/mesh/node_exchange.hpp"
 
 namespace quadloop::io {
 
@@ -70,12 +74,37 @@ std::vector<double> areas_of(const Mesh& mesh, ParitySets& pieces) {
   return areas;
 }
 
+/// Whether cells of two ranks have the same directed edge. Both its nodes are then flagged: cells of a rank
+/// that does not own them use them. The owner of the lower node compares. *Collective.*
+bool repeats_over_ranks(const Communicator& comm, const Mesh& mesh) {
+  const NodeOwners owners(comm, mesh.first_node);
+  NodeFlags shared(mesh.points.size(), 0);
+  flag_at_owners(comm, owners, mesh.ghosts, shared);
+  std::span<char> flags(shared.data(), shared.size());
+  NodeExchange(comm, owners, mesh.owned_nodes, mesh.ghosts).update(flags);
+  std::vector<std::array<GlobalNodeId, 2>> edges;
+  std::vector<int> ranks;
+  for_each_cell_edge(mesh, [&](NodeId from, NodeId to, std::int32_t) {
+    if (shared[from] == 0 || shared[to] == 0) return;
+    edges.push_back({mesh.global(from), mesh.global(to)});
+    ranks.push_back(owners.rank_of(std::min(edges.back()[0], edges.back()[1])));
+  });
+  auto arrived = Exchange(comm, ranks).deliver(edges);
+  std::ranges::sort(arrived);
+  return comm.any(std::ranges::adjacent_find(arrived) != arrived.end());
+}
+
 }  // namespace
 
 bool surely_oriented(const Mesh& mesh, const EdgeTable& table) {
   const auto runs_left = [&](const auto& nodes) { return twice_area(mesh, nodes) > 0; };
   return std::ranges::all_of(mesh.triangles, runs_left) && std::ranges::all_of(mesh.quads, runs_left) &&
          !table.repeats();
+}
+
+bool surely_oriented(const Communicator& comm, const Mesh& mesh) {
+  if (comm.any(!surely_oriented(mesh, EdgeTable(mesh)))) return false;
+  return comm.size() == 1 || !repeats_over_ranks(comm, mesh);
 }
 
 std::int64_t orient_cells(Mesh& mesh) {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/mesh.hpp"
 #include "mesher/mesh/topology.hpp"
 
@@ -10,6 +11,9 @@ namespace quadloop::io {
 /// Whether orient_cells() certainly has nothing to reverse: all cells are counter-clockwise, and no two have
 /// an edge in the same direction. Linear.
 bool surely_oriented(const Mesh& mesh, const EdgeTable& table);
+
+/// The same for a distributed mesh. *Collective.*
+bool surely_oriented(const Communicator& comm, const Mesh& mesh);
 
 /// Reverses cells of a mesh that is whole on this rank such that cells traverse a shared edge in opposite
 /// directions, and the signed areas of each component (cells connected by edges of two cells) have a positive
