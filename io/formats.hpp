@@ -60,8 +60,9 @@ struct FileFormat {
   /// Returns the second file that is written with one of this name; null: there is none.
   std::string (*file_beside)(const std::string& path) = nullptr;
 
-  /// As above for a solution alone; `gamma` is the ratio of specific heats of its gas.
-  LoadedSolution (*read_solution)(const std::string& path) = nullptr;
+  /// As above for a solution alone, of which each rank gets an even share of the rows; `gamma` is the ratio
+  /// of specific heats of its gas.
+  LoadedSolution (*read_solution)(const Communicator& comm, const std::string& path) = nullptr;
   void (*write_solution)(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Field& solution,
                          double gamma) = nullptr;
 

@@ -61,26 +61,6 @@ LoadedSolution read_with_mesh(const Communicator& comm, const std::string& path)
   return result;
 }
 
-/// Distributes a table that is whole on the root. *Collective.*
-LoadedSolution distributed_table(const Communicator& comm, LoadedSolution whole) {
-  whole.nodes = comm.maximum(whole.nodes);
-  Field& solution = whole.solution;
-  solution.names = broadcast_words(comm, solution.names);
-  comm.broadcast(solution.constants);
-  solution.values = in_even_shares(comm, std::move(solution.values), std::ssize(solution.names));
-  whole.points = in_even_shares(comm, std::move(whole.points));
-  return whole;
-}
-
-LoadedSolution read_alone(const Communicator& comm, const std::string& path) {
-  LoadedSolution whole;
-  comm.together([&] {
-    if (comm.is_root()) whole = format_of(path)->read_solution(path);
-  });
-  whole.path = path;
-  return distributed_table(comm, std::move(whole));
-}
-
 /// Returns the solution, and its mesh, whole on the root. *Collective.*
 LoadedSolution gathered(const Communicator& comm, const LoadedSolution& part) {
   LoadedSolution whole{part.path, {}, part.nodes, {}, gather_at_root(comm, part.points)};
@@ -97,8 +77,8 @@ std::string difference_of(const LoadedSolution& solution, const Mesh& whole) {
 
 LoadedSolution read_solution(const Communicator& comm, const std::string& path) {
   comm.together([&] { require_solution_suffix(path); });
-  const bool alone = format_of(path)->read_solution != nullptr;
-  LoadedSolution result = alone ? read_alone(comm, path) : read_with_mesh(comm, path);
+  const auto read_alone = format_of(path)->read_solution;
+  LoadedSolution result = read_alone != nullptr ? read_alone(comm, path) : read_with_mesh(comm, path);
   Field& solution = result.solution;
   std::vector<std::string*> names;
   append_names(solution, names);

@@ -9,9 +9,10 @@ namespace quadloop::io {
 
 /// Reads a table of nodal values in the format of SU2's restart file: a first line of names, optionally in
 /// double quotes, then one line per node, in the order of the mesh; a column "PointID", from 0, sorts the
-/// lines. The columns x, y (and z, which must be constant) are coordinates, all others variables. Throws
-/// InputError "file:line: ...".
-LoadedSolution read_su2_csv(const std::string& path);
+/// lines. The columns x, y (and z, which must be constant) are coordinates, all others variables. Each rank
+/// reads its range of lines; if the lines are not in the order of their PointIDs, the root has all of these.
+/// Throws InputError "file:line: ..." of the first error on all ranks. *Collective.*
+LoadedSolution read_su2_csv(const Communicator& comm, const std::string& path);
 
 /// Writes a solution as a restart file for SU2: "PointID", "x", "y", then SU2's conservative variables
 /// "Density", "Momentum_x", "Momentum_y" and "Energy" (per volume), non-dimensional as in the solution, then

@@ -4,14 +4,16 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstring>
 #include <limits>
+#include <optional>
+#include <span>
 
 #include "io/files/binary_output.hpp"
 #include "io/files/reading/input_file.hpp"
 #include "io/files/row_output.hpp"
 #include "io/su2/su2_restart_table.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/base/parallel/even_shares.hpp"
 
 namespace quadloop::io {
 
@@ -29,12 +31,18 @@ Number reversed(Number value) {
 
 class Su2DatReader {
  public:
-  explicit Su2DatReader(const std::string& path) : bytes_{read_input(path)} { loaded_.path = path; }
+  Su2DatReader(const Communicator& comm, const std::string& path) : comm_{comm} {
+    loaded_.path = path;
+    comm.together([&] { file_.emplace(path, comm.size() == 1); });
+    require_same_size(comm, path, file_->size());
+  }
 
   LoadedSolution read() {
-    read_head();
-    read_names();
-    read_rows();
+    comm_.together([&] {
+      read_head();
+      read_names();
+      read_rows();
+    });
     return std::move(loaded_);
   }
 
@@ -42,34 +50,36 @@ class Su2DatReader {
   [[noreturn]] void refuse(const std::string& fault) const { throw InputError(loaded_.path + ": " + fault); }
 
   template <class Number>
-  Number number_at(std::size_t byte) const {
-    Number value{};
-    std::memcpy(&value, bytes_.data() + byte, sizeof value);
-    return turned_ ? reversed(value) : value;
+  std::vector<Number> numbers_at(std::int64_t place, std::int64_t count) const {
+    std::vector<Number> numbers(count);
+    file_->read_at(place, std::as_writable_bytes(std::span(numbers)));
+    if (turned_) std::ranges::transform(numbers, numbers.begin(), reversed<Number>);
+    return numbers;
   }
 
   void read_head() {
-    if (bytes_.size() < sizeof(Head)) refuse("is too short for a restart file of SU2");
-    turned_ = number_at<std::int32_t>(0) == reversed(magic);
-    if (number_at<std::int32_t>(0) != magic)
-      refuse("is no binary restart file of SU2, which begins with the number 535532");
-    const auto columns = number_at<std::int32_t>(sizeof magic),
-               nodes = number_at<std::int32_t>(2 * sizeof magic);
+    if (file_->size() < std::int64_t{sizeof(Head)}) refuse("is too short for a restart file of SU2");
+    turned_ = numbers_at<std::int32_t>(0, 1)[0] == reversed(magic);
+    const std::vector<std::int32_t> head = numbers_at<std::int32_t>(0, 3);
+    if (head[0] != magic) refuse("is no binary restart file of SU2, which begins with the number 535532");
+    const std::int32_t columns = head[1], nodes = head[2];
     if (columns < 1 || nodes < 1) refuse(fmt::format("promises {} variables at {} nodes", columns, nodes));
     columns_ = columns;
     loaded_.nodes = nodes;
-    const std::size_t left = bytes_.size() - sizeof(Head);
+    const std::size_t left = file_->size() - sizeof(Head);
     const std::size_t wanted_names = columns_ * name_bytes;
     if (left < wanted_names ||
         (left - wanted_names) / sizeof(double) / columns_ < static_cast<std::size_t>(nodes))
       refuse(fmt::format("promises {} variables at {} nodes, but has {} bytes only; it is cut short", columns,
-                         nodes, bytes_.size()));
+                         nodes, file_->size()));
   }
 
   void read_names() {
     for (std::size_t column = 0; column < columns_; ++column) {
-      const char* const text = bytes_.data() + sizeof(Head) + column * name_bytes;
-      const std::string name(text, std::find(text, text + name_bytes, '\0'));
+      std::string name(name_bytes, '\0');
+      file_->read_at(static_cast<std::int64_t>(sizeof(Head) + column * name_bytes),
+                     std::as_writable_bytes(std::span(name)));
+      name.resize(name.find('\0') < name.size() ? name.find('\0') : name.size());
       if (name == "x") x_ = column;
       if (name == "y") y_ = column;
       if (name == "x" || name == "y") continue;
@@ -81,20 +91,27 @@ class Su2DatReader {
     if ((x_ < columns_) != (y_ < columns_)) refuse("has only one of the coordinates x and y");
   }
 
+  /// Each rank reads its even share.
   void read_rows() {
-    const std::size_t begin = sizeof(Head) + columns_ * name_bytes;
-    const auto value = [&](std::size_t row, std::size_t column) {
-      return number_at<double>(begin + (row * columns_ + column) * sizeof(double));
-    };
-    const auto rows = static_cast<std::size_t>(loaded_.nodes);
-    loaded_.solution.values.reserve(rows * variables_.size());
-    for (std::size_t row = 0; row < rows; ++row) {
-      for (const std::size_t column : variables_) loaded_.solution.values.push_back(value(row, column));
-      if (x_ < columns_) loaded_.points.push_back({value(row, x_), value(row, y_)});
+    constexpr std::int64_t numbers_of_piece = std::int64_t{1} << 16;
+    const EvenShare share(comm_, loaded_.nodes);
+    const auto width = static_cast<std::int64_t>(columns_);
+    const auto begin = static_cast<std::int64_t>(sizeof(Head) + columns_ * name_bytes);
+    const std::int64_t rows_of_piece = std::max<std::int64_t>(1, numbers_of_piece / width);
+    loaded_.solution.values.reserve(share.size() * variables_.size());
+    for (std::int64_t first = share.begin; first < share.end; first += rows_of_piece) {
+      const std::int64_t rows = std::min(rows_of_piece, share.end - first);
+      const std::vector<double> values =
+          numbers_at<double>(begin + first * width * std::int64_t{sizeof(double)}, rows * width);
+      for (std::size_t row = 0; row < values.size(); row += columns_) {
+        for (const std::size_t column : variables_) loaded_.solution.values.push_back(values[row + column]);
+        if (x_ < columns_) loaded_.points.push_back({values[row + x_], values[row + y_]});
+      }
     }
   }
 
-  std::string bytes_;
+  const Communicator& comm_;
+  std::optional<PlacedInput> file_;
   bool turned_ = false;  ///< the file has the other byte order
   std::size_t columns_ = 0;
   std::size_t x_ = std::numeric_limits<std::size_t>::max(), y_ = x_;
@@ -116,7 +133,9 @@ std::string head_of(const std::vector<std::string>& names, std::int64_t nodes) {
 
 }  // namespace
 
-LoadedSolution read_su2_dat(const std::string& path) { return Su2DatReader(path).read(); }
+LoadedSolution read_su2_dat(const Communicator& comm, const std::string& path) {
+  return Su2DatReader(comm, path).read();
+}
 
 void write_su2_dat(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Field& solution,
                    double gamma) {

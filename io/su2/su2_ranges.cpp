@@ -19,12 +19,14 @@
 #include "io/text/tokens.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/parallel/even_shares.hpp"
+#include "mesher/base/trimmed.hpp"
 
 namespace quadloop::io {
 
 namespace {
 
 constexpr char su2_comment = '%';
+constexpr std::string_view blanks = " \t\r\v\f";
 
 /// A line "KEY= value".
 struct KeyLine {
@@ -46,12 +48,6 @@ void pass_fields(Pipe& pipe, KeyLine& line) {
 template <class Pipe>
 void pass_fields(Pipe& pipe, KeysOfRank& keys) {
   pass(pipe, keys.keys, keys.rows_before, keys.blocks[0], keys.blocks[1]);
-}
-
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
-  while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
-  return text;
 }
 
 /// The tokens of one line.
@@ -141,14 +137,14 @@ class Su2Ranges {
     comm_.together([&] {
       for_each_line(
           [&](std::string_view line, std::size_t equals) {
-            own.keys.push_back({std::string(trimmed(line.substr(0, equals))),
-                                std::string(trimmed(line.substr(equals + 1)))});
+            own.keys.push_back({std::string(trimmed(line.substr(0, equals), blanks)),
+                                std::string(trimmed(line.substr(equals + 1), blanks))});
           },
           [&](std::string_view) { ++(own.keys.empty() ? own.rows_before : own.keys.back().rows); },
           [&](std::string_view line) {
             if (own.keys.size() > 1 || !line.starts_with(su2_block_comment)) return;
             std::string& name = own.blocks[own.keys.size()];
-            if (name.empty()) name = trimmed(line.substr(std::string_view(su2_block_comment).size()));
+            if (name.empty()) name = trimmed(line.substr(std::string_view(su2_block_comment).size()), blanks);
           });
     });
     const std::vector<std::byte> bytes = packed(own),

@@ -152,16 +152,23 @@ void InputPieces::read_all(char* into, std::size_t size) {
   }
 }
 
-PlacedInput::PlacedInput(const std::string& path) : path_{path} {
-  size_ = require_readable_kind(path, false).st_size;
-  file_ = std::make_unique<InputDescriptor>(path);
+PlacedInput::PlacedInput(const std::string& path, bool keeps_pipe) : path_{path} {
+  const struct stat found = require_readable_kind(path, keeps_pipe && pipes_allowed);
+  if (S_ISFIFO(found.st_mode)) {
+    kept_ = read_input(path);
+    size_ = std::ssize(kept_);
+  } else {
+    file_ = std::make_unique<InputDescriptor>(path);
+    size_ = found.st_size;
+  }
 }
 
 PlacedInput::~PlacedInput() = default;
 
 void PlacedInput::read_at(std::int64_t place, std::span<std::byte> into) const {
   while (!into.empty()) {
-    const std::size_t got = file_->read_at(place, into, path_);
+    const std::size_t got = file_ ? file_->read_at(place, into, path_)
+                                  : kept_.copy(reinterpret_cast<char*>(into.data()), into.size(), place);
     if (got == 0) refuse_changed(path_);
     into = into.subspan(got);
     place += static_cast<std::int64_t>(got);

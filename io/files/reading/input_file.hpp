@@ -43,8 +43,9 @@ class InputPieces {
 /// A file that is read at any place.
 class PlacedInput {
  public:
-  /// Opens it; throws InputError, also for a pipe.
-  explicit PlacedInput(const std::string& path);
+  /// Opens it; throws InputError, also for a pipe, unless that is to be kept in memory, and read_input()
+  /// accepts it.
+  explicit PlacedInput(const std::string& path, bool keeps_pipe = false);
   ~PlacedInput();
 
   /// In bytes, when it was opened.
@@ -54,7 +55,8 @@ class PlacedInput {
 
  private:
   std::string path_;
-  std::unique_ptr<InputDescriptor> file_;
+  std::unique_ptr<InputDescriptor> file_;  ///< none for a pipe
+  std::string kept_;                       ///< what came through it
   std::int64_t size_ = 0;
 };
 

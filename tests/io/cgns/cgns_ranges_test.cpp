@@ -16,7 +16,9 @@
 #include "io/cgns/cgns_contents.hpp"
 #include "io/cgns/cgns_file.hpp"
 #include "io/files/reading/separate_reader.hpp"
+#include "io/mesh_file.hpp"
 #include "io/model/distribute.hpp"
+#include "io/native/native_file.hpp"
 #include "mesher/base/error.hpp"
 #include "tests/io/read_plane.hpp"
 #include "tests/io/same_mesh.hpp"
@@ -232,6 +234,25 @@ TEST(CgnsRanges, NameTheFirstErrorOnAllRanks) {
             "m.cgns: zone Zone: node 26 has a coordinate that is not finite");
   EXPECT_EQ(refusal("/Base/Zone/GridCoordinates/CoordinateZ", 13, 1e-9),
             "m.cgns: zone Zone: its nodes do not lie in the plane z = 0");
+}
+
+/// The sides of a pair, which the mesh has, are not also listed as other periodic sides.
+TEST(CgnsRanges, ListNoNodesOfPairsAsPeriodic) {
+  const TemporaryFolder folder;
+  const Communicator alone(MPI_COMM_SELF);
+  const std::string text =
+      "8\n0 0\n1 0\n2 0\n3 0\n0 1\n1 1\n2 1\n3 1\n1\n0\n3\n1 2 6 5\n2 3 7 6\n3 4 8 7\n3\n#edges (left)\n1\n5 "
+      "1\n"
+      "#edges (right)\n1\n4 8\n#edges (others)\n6\n1 2\n2 3\n3 4\n8 7\n7 6\n6 5\n"
+      "# pair left right translation 3 0\n";
+  const std::string path = folder.file("m.cgns");
+  const LoadedMesh mesh = read_native(alone, folder.write("m.mesh", text));
+  if (world().is_root()) write_mesh_file(alone, mesh, path);
+  world().barrier();
+  EXPECT_EQ(world().sum(std::ssize(std::get<LoadedMesh>(read_cgns(world(), path)).periodic_nodes)), 4);
+  const LoadedMesh part = read_mesh(world(), path);
+  EXPECT_EQ(part.mesh.pairs.size(), 1U);
+  EXPECT_TRUE(part.periodic_nodes.empty());
 }
 
 TEST(CgnsRanges, RefuseATruncatedFileOnAllRanks) {

@@ -1,17 +1,21 @@
 // An SU2 mesh that all ranks read, each some of its lines, is the one that is read as a whole; a file that
-// needs more than that is left to the root, and gives the same mesh or message.
+// needs more than that is left to the root, and gives the same mesh or message. Solutions are read by ranges,
+// too.
 #include "io/su2/su2_ranges.hpp"
 
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cstdint>
 #include <random>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "io/formats.hpp"
 #include "io/model/distribute.hpp"
+#include "io/solution_file.hpp"
 #include "io/su2/su2_file.hpp"
 #include "mesher/base/error.hpp"
 #include "tests/io/read_plane.hpp"
@@ -93,7 +97,7 @@ TEST(Su2Ranges, AreOfFilesThatNeedNoMore) {
       {"5 1 2 4 0", "5 1 2 4 0 0"},                        // too many numbers
       {"5 1 2 4 0", "5 1 2 6 0"},                          // no such point
       {"5 1 2 4 0", "5 1 2"},                              // too few
-      {"5 1 2 4 0", "5 2 5 4 0"},                          // twice the same cell
+      {"NELEM= 3\n", "NELEM= 4\n5 2 5 4\n"},               // twice the same cell
       {"5 1 2 4 0", "10 1 2 4 0"},                         // a tetrahedron
       {"NELEM= 3", "NELEM= 4"},                            //
       {"NELEM= 3", "NELEM= 2"},                            //
@@ -137,6 +141,71 @@ TEST(Su2Ranges, SayWhatIsSaidOfDamagedFilesAsAWhole) {
     }
     expect_as_whole(text);
   }
+}
+
+/// The solution of a file, or why there is none, read by all ranks and by one.
+void expect_as_one_rank(const std::string& name, const std::string& bytes, bool readable) {
+  const TemporaryFolder folder;
+  const std::string path = folder.write(name, bytes);
+  LoadedSolution part, wanted;
+  const std::string refusal = test::refusal_text([&] { part = read_solution(world(), path); }),
+                    of_one = test::refusal_text([&] { wanted = read_solution(path); });
+  EXPECT_EQ(refusal, of_one) << bytes;
+  EXPECT_EQ(refusal.empty(), readable) << refusal;
+  if (!refusal.empty() || !of_one.empty()) return;
+  EXPECT_EQ(part.nodes, wanted.nodes);
+  EXPECT_EQ(part.solution.names, wanted.solution.names);
+  EXPECT_EQ(world().all_gather_values(std::span<const double>(part.solution.values)), wanted.solution.values);
+  EXPECT_EQ(world().all_gather_values(std::span<const Point>(part.points)), wanted.points);
+  const std::int64_t rank = world().rank(), ranks = world().size();
+  EXPECT_EQ(std::ssize(part.solution.values),
+            wanted.solution.width() * (part.nodes * (rank + 1) / ranks - part.nodes * rank / ranks));
+}
+
+const std::string table =
+    "\n\"PointID\", \"x\", \"y\", \"z\", \"Density\", \"Mach\"\n0, 0, 0, 2, 1, 0.5\n\n1, 1, 0, 2, 3, 0.25,\n"
+    "2, 1, 1, 2, 5, 0.125\n3, 0, 1, 2, 7, 1\n4, 0, 2, 2, 9, 2\n";
+
+TEST(Su2Csv, IsReadByRangesOfLines) {
+  const auto with = [](const std::string& what, const std::string& into) {
+    std::string text = table;
+    return text.replace(text.find(what), what.size(), into);
+  };
+  expect_as_one_rank("s.csv", table, true);
+  const std::string moved = with("1, 1, 0, 2, 3", "3, 1, 0, 2, 3");
+  expect_as_one_rank("s.csv", moved, false);  // twice the same number
+  std::string sorted = moved;
+  sorted.replace(sorted.rfind("3, 0, 1, 2, 7"), 1, "1");
+  expect_as_one_rank("s.csv", sorted, true);
+  const TemporaryFolder folder;
+  const LoadedSolution part = read_solution(world(), folder.write("s.csv", sorted));
+  EXPECT_EQ(world().all_gather_values(std::span<const double>(part.solution.values)),
+            (std::vector<double>{1, 0.5, 7, 1, 5, 0.125, 3, 0.25, 9, 2}));
+  EXPECT_EQ(world().all_gather_values(std::span<const Point>(part.points))[1], (Point{0, 1}));
+  expect_as_one_rank("s.csv", with("4, 0, 2, 2, 9", "5, 0, 2, 2, 9"), false);
+  expect_as_one_rank("s.csv", with("4, 0, 2, 2, 9", "4, 0, 2, 3, 9"), false);
+  expect_as_one_rank("s.csv", with("4, 0, 2, 2, 9", "4, 0, 2, 2, inf"), false);
+  expect_as_one_rank("s.csv", with("4, 0, 2, 2, 9", "4, 0, 2, 2"), false);
+  expect_as_one_rank("s.csv", with("3, 0, 1", "3, 0, one"), false);
+  expect_as_one_rank("s.csv", table.substr(0, 50), false);
+  expect_as_one_rank("s.csv", "\n\n", false);
+  EXPECT_EQ(test::refusal_text(
+                [&] { read_solution(world(), folder.write("s.csv", with("3, 0, 1", "3, 0, one"))); }),
+            folder.file("s.csv") + ":7: expected a number for y, found \"one\"");
+}
+
+TEST(Su2Dat, IsReadByRangesOfRows) {
+  std::string bytes;
+  const auto add = [&](const auto& numbers) {
+    const std::span<const std::byte> raw = std::as_bytes(std::span(numbers));
+    bytes.append(reinterpret_cast<const char*>(raw.data()), raw.size());
+  };
+  add(std::array<std::int32_t, 5>{535532, 4, 7, 0, 0});
+  for (std::string name : {"x", "Density", "y", "Mach"}) bytes += (name.resize(33), name);
+  for (int i = 0; i < 7; ++i) add(std::array<double, 4>{0.5 * i, i + 1., -2. * i, i + 100.});
+  expect_as_one_rank("s.dat", bytes, true);
+  expect_as_one_rank("s.dat", bytes.substr(0, bytes.size() - 1), false);
+  expect_as_one_rank("s.dat", bytes.substr(0, 12), false);
 }
 
 }  // namespace
