@@ -255,6 +255,29 @@ TEST(CgnsRanges, ListNoNodesOfPairsAsPeriodic) {
   EXPECT_TRUE(part.periodic_nodes.empty());
 }
 
+TEST(CgnsRanges, AreOfFilesWith64BitSizesToo) {
+  const TemporaryFolder folder;
+  const Communicator alone(MPI_COMM_SELF);
+  const LoadedMesh mesh = read_native(
+      alone, folder.write("m.mesh", "4\n0 0\n1 0\n1 1\n0 1\n1\n1\n1 2 3\n0\n1\n4\n1 2\n2 3\n3 4\n4 1\n"));
+  for (const CgnsSizes sizes : {CgnsSizes::as_needed, CgnsSizes::always_64_bits}) {
+    const std::string path = folder.file(sizes == CgnsSizes::as_needed ? "4.cgns" : "8.cgns");
+    if (world().is_root()) {
+      OutputSet outputs(alone);
+      write_cgns(outputs, MeshStream(alone, mesh), path, sizes);
+      outputs.commit();
+    }
+    world().barrier();
+    const auto contents = read_separately<CgnsContents>("cgns", path);
+    EXPECT_TRUE(contents.by_ranges);
+    ASSERT_EQ(contents.sections.size(), 1U);
+    EXPECT_EQ(contents.sections[0].nodes.number,
+              sizes == CgnsSizes::as_needed ? CgnsArray::Number::integer_32 : CgnsArray::Number::integer_64);
+    const LoadedMesh whole = gathered(world(), std::get<LoadedMesh>(read_cgns(world(), path)));
+    EXPECT_TRUE(!world().is_root() || whole.mesh.triangles == mesh.mesh.triangles);
+  }
+}
+
 TEST(CgnsRanges, RefuseATruncatedFileOnAllRanks) {
   const TemporaryFolder folder;
   const std::string path = changed_file(folder, "m.cgns", [](const std::string& file) {
