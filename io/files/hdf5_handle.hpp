@@ -1,7 +1,7 @@
 #pragma once
 
 // For io/ only: the only header that includes the HDF5 library. Ids are used only in hdf5_output and in the
-// sources of the tree file, cgns_nodes and vtkhdf_output; libcgns has its own.
+// sources of the tree file, cgns_nodes, cgns_places and vtkhdf_output; libcgns has its own.
 #include <hdf5.h>
 
 #include <charconv>
