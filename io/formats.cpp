@@ -29,6 +29,7 @@
 #include "io/vtu/pvtu_text.hpp"
 #include "io/vtu/vtkhdf_file.hpp"
 #include "io/vtu/vtu_file.hpp"
+#include "io/vtu/vtu_ranges.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/suffix.hpp"
 #include "mesher/mesh/variable_names.hpp"
@@ -187,7 +188,7 @@ std::vector<FileFormat> vtk_rows() {
            .bytes_of_cell = {69, 50},
            .bytes_of_value = 8,
            .without_values = "let the solver save values at points (in ParaView: Cell Data to Point Data)",
-           .read = read_at_root<read_vtu>,
+           .read = read_by_ranges<read_vtu_ranges, read_vtu>,
            .write = write_vtu,
            .stores_lines = true},
           {.name = "pvtu",

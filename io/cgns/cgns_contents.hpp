@@ -3,23 +3,25 @@
 // For io/cgns, and quadloop-reader (io/reader), a separate process.
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "io/files/placed_array.hpp"
 #include "io/model/file_mesh.hpp"
 #include "io/model/serialize_mesh.hpp"
 
 namespace quadloop::io {
 
-/// A list of numbers in a CGNS file, which any rank can read if it is one piece of the file.
-struct CgnsArray {
-  enum class Number : std::uint8_t { real_32, real_64, integer_32, integer_64 };
-  static constexpr std::int64_t unknown = -1;
+/// A list of numbers in a CGNS file, which any rank can read if it is one piece of the file. An unknown count
+/// means that it cannot be read by ranges.
+struct CgnsArray : PlacedArray {
+  CgnsArray() = default;
+  explicit CgnsArray(std::string path_in_file, std::int64_t count_of_numbers = unknown)
+      : path{std::move(path_in_file)} {
+    count = count_of_numbers;
+  }
 
-  std::string path;              ///< of its node, "/Base/Zone/..."
-  std::int64_t count = unknown;  ///< of the numbers; unknown: it cannot be read by ranges
-  std::int64_t place = unknown;  ///< offset in the file, if it is one piece of `count` numbers
-  Number number = Number::real_64;
-  bool big_endian = false;
+  std::string path;  ///< of its node, "/Base/Zone/..."
 };
 
 /// A section of triangles or quadrilaterals.

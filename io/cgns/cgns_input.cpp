@@ -152,7 +152,7 @@ class ZoneReader {
   void note_coordinates(bool has_z) {
     const std::string grid = path() + "/GridCoordinates/Coordinate";
     for (const char* axis : {"X", "Y", "Z"}) {
-      if (*axis != 'Z' || has_z) contents_.coordinates.push_back({grid + axis, nodes_});
+      if (*axis != 'Z' || has_z) contents_.coordinates.emplace_back(grid + axis, nodes_);
     }
   }
 

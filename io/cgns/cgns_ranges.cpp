@@ -1,7 +1,6 @@
 #include "io/cgns/cgns_ranges.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <numeric>
@@ -10,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "io/files/binary_output.hpp"
 #include "io/files/reading/input_file.hpp"
 #include "io/model/file_part.hpp"
 #include "mesher/base/error.hpp"
@@ -19,40 +17,6 @@
 namespace quadloop::io {
 
 namespace {
-
-constexpr std::int64_t numbers_of_piece = std::int64_t{1} << 16;
-
-/// Reads `count` numbers of an array from its number `first`, from 0, and passes them as `Wanted` to
-/// `take(values)` piece by piece.
-template <class Number, class Wanted, class Take>
-void read_pieces(const PlacedInput& file, const CgnsArray& array, std::int64_t first, std::int64_t count,
-                 const Take& take) {
-  std::vector<Number> numbers;
-  std::vector<Wanted> values;
-  for (std::int64_t done = 0; done < count; done += std::ssize(numbers)) {
-    numbers.resize(std::min(numbers_of_piece, count - done));
-    file.read_at(array.place + (first + done) * std::int64_t{sizeof(Number)},
-                 std::as_writable_bytes(std::span(numbers)));
-    values.clear();
-    for (const Number number : numbers)
-      values.push_back(static_cast<Wanted>(array.big_endian ? in_order<std::endian::big>(number)
-                                                            : in_order<std::endian::little>(number)));
-    take(std::span<const Wanted>(values));
-  }
-}
-
-template <class Take>
-void read_reals(const PlacedInput& file, const CgnsArray& array, std::int64_t first, std::int64_t count,
-                const Take& take) {
-  switch (array.number) {
-    case CgnsArray::Number::real_32: return read_pieces<float, double>(file, array, first, count, take);
-    case CgnsArray::Number::real_64: return read_pieces<double, double>(file, array, first, count, take);
-    case CgnsArray::Number::integer_32:
-      return read_pieces<std::int32_t, double>(file, array, first, count, take);
-    case CgnsArray::Number::integer_64:
-      return read_pieces<std::int64_t, double>(file, array, first, count, take);
-  }
-}
 
 class CgnsRanges {
  public:
@@ -101,7 +65,8 @@ class CgnsRanges {
     };
     std::int64_t cells = 0;
     for (const CgnsSection& section : sections) {
-      if (!has(section.cells * width_of(section.kind))(section.nodes)) return false;
+      if (!has(section.cells * width_of(section.kind))(section.nodes) || !section.nodes.is_of_integers())
+        return false;
       cells += section.cells;
     }
     const Field none;
@@ -134,14 +99,14 @@ class CgnsRanges {
       points.resize(share.size());
       for (std::size_t k = 0; k < contents_.coordinates.size(); ++k) {
         auto point = points.begin();
-        read_reals(*file_, contents_.coordinates[k], share.begin, share.size(),
-                   [&](std::span<const double> values) {
-                     for (const double value : values) {
-                       require(k < 2 ? std::isfinite(value) : value == 0);
-                       if (k < 2) (k == 0 ? point->x : point->y) = value;
-                       ++point;
-                     }
-                   });
+        read_numbers<double>(*file_, contents_.coordinates[k], share.begin, share.size(),
+                             [&](std::span<const double> values) {
+                               for (const double value : values) {
+                                 require(k < 2 ? std::isfinite(value) : value == 0);
+                                 if (k < 2) (k == 0 ? point->x : point->y) = value;
+                                 ++point;
+                               }
+                             });
       }
     });
     return points;
@@ -153,27 +118,18 @@ class CgnsRanges {
     const std::int64_t width = width_of(kind);
     std::vector<GlobalNodeId> nodes;
     for_share_of_lists(comm_, cells_of(kind), [&](std::size_t s, std::int64_t first, std::int64_t rows) {
-      read_integers(contents_.sections[s].nodes, first * width, rows * width,
-                    [&](std::span<const std::int64_t> numbers) {
-                      for (const std::int64_t number : numbers) {
-                        require(number >= 1 && number <= contents_.nodes);
-                        nodes.emplace_back(number - 1);
-                      }
-                      const std::size_t whole = nodes.size() - nodes.size() % width;
-                      take(std::span<const GlobalNodeId>(nodes).first(whole));
-                      nodes.erase(nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>(whole));
-                    });
+      read_numbers<std::int64_t>(*file_, contents_.sections[s].nodes, first * width, rows * width,
+                                 [&](std::span<const std::int64_t> numbers) {
+                                   for (const std::int64_t number : numbers) {
+                                     require(number >= 1 && number <= contents_.nodes);
+                                     nodes.emplace_back(number - 1);
+                                   }
+                                   const std::size_t whole = nodes.size() - nodes.size() % width;
+                                   take(std::span<const GlobalNodeId>(nodes).first(whole));
+                                   nodes.erase(nodes.begin(),
+                                               nodes.begin() + static_cast<std::ptrdiff_t>(whole));
+                                 });
     });
-  }
-
-  template <class Take>
-  void read_integers(const CgnsArray& array, std::int64_t first, std::int64_t count, const Take& take) const {
-    const bool is_long = array.number == CgnsArray::Number::integer_64;
-    require(is_long || array.number == CgnsArray::Number::integer_32);
-    if (is_long)
-      read_pieces<std::int64_t, std::int64_t>(*file_, array, first, count, take);
-    else
-      read_pieces<std::int32_t, std::int64_t>(*file_, array, first, count, take);
   }
 
   /// Every rank has all edges, and takes its share of them.
@@ -203,7 +159,7 @@ class CgnsRanges {
     values.resize(before + rows * width);
     for (std::size_t k = 0; k < width; ++k) {
       std::size_t at = before + k;
-      read_reals(*file_, variables[k], first, rows, [&](std::span<const double> column) {
+      read_numbers<double>(*file_, variables[k], first, rows, [&](std::span<const double> column) {
         for (const double value : column) {
           values[at] = value;
           at += width;

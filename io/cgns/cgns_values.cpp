@@ -120,7 +120,7 @@ Field note_cgns_values(const CgnsZone& from, const std::string& path, std::int64
                         std::vector<CgnsArray>& arrays) {
     Variables variables = variables_of(from, solution);
     for (const std::string& variable : variables.in_file)
-      arrays.push_back({path + "/" + name + "/" + variable, count});
+      arrays.emplace_back(path + "/" + name + "/" + variable, count);
     return std::move(variables.own);
   };
   for_solutions(

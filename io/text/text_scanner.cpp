@@ -9,8 +9,10 @@
 
 namespace quadloop::io {
 
-TextScanner::TextScanner(std::string path, char comment)
-    : path_{std::move(path)}, text_{read_input(path_)}, comment_{comment} {
+TextScanner::TextScanner(std::string path, char comment) : TextScanner(path, read_input(path), comment) {}
+
+TextScanner::TextScanner(std::string path, std::string text, char comment)
+    : path_{std::move(path)}, text_{std::move(text)}, comment_{comment} {
   at_ = token_ = comments_begin_ = text_.data();
   end_ = at_ + text_.size();
 }

@@ -16,6 +16,8 @@ class TextScanner {
 
   /// Reads the file; InputError if it cannot be read.
   explicit TextScanner(std::string path, char comment = '#');
+  /// Takes a text that was read from it.
+  TextScanner(std::string path, std::string text, char comment);
 
   /// Whether only blanks and comments remain.
   bool at_end();

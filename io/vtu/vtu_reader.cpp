@@ -5,14 +5,11 @@
 #include <limits>
 
 #include "io/model/clean_up.hpp"
-#include "io/model/node_text.hpp"
-#include "io/model/pair_text.hpp"
-#include "io/model/strip_text.hpp"
 #include "io/stream/vtk_cell.hpp"
 #include "io/vtu/vtu_arrays.hpp"
 #include "io/vtu/vtu_boundaries.hpp"
 #include "io/vtu/vtu_file.hpp"
-#include "io/vtu/vtu_layers.hpp"
+#include "io/vtu/vtu_names.hpp"
 
 namespace quadloop::io {
 
@@ -86,7 +83,7 @@ class VtuReader {
         numbers_.integers(connectivity, offsets.empty() ? 0 : offsets.back());
     find_boundaries();
     const std::vector<std::int64_t> blocks = cell_numbers("block");
-    read_names();
+    names_ = read_vtu_names(scan_, document_, numbers_, mesh_);
     std::int64_t begin = 0;
     for (std::size_t cell = 0; cell < types_.size(); ++cell) {
       const std::int64_t end = offsets[cell];
@@ -112,7 +109,7 @@ class VtuReader {
   std::string boundary_name() const {
     const std::int64_t number = boundaries_.of_cells.empty() ? 0 : boundaries_.of_cells[cell_ - 1];
     if (boundaries_.is_ours || boundaries_.of_cells.empty())
-      return name_of(boundary_names_, number, "boundary", "boundary");
+      return name_of(names_.boundaries, number, "boundary", "boundary");
     return boundaries_.name_of(number);
   }
 
@@ -121,43 +118,6 @@ class VtuReader {
     const VtuArray* array = document_.find("CellData", name);
     if (array == nullptr || array->components != 1 || array->type.starts_with("Float")) return {};
     return numbers_.integers(*array, document_.cells);
-  }
-
-  void read_names() {
-    if (const VtuArray* array = document_.find("FieldData", "boundary_names"))
-      boundary_names_ = numbers_.texts(*array);
-    if (const VtuArray* array = document_.find("FieldData", "block_names"))
-      block_names_ = numbers_.texts(*array);
-    for (const std::string& name : boundary_names_) mesh_.boundary_named(name);  // in their order
-    for (const std::string& name : block_names_) mesh_.block_named(name);
-    read_layers();
-    if (const VtuArray* array = document_.find("FieldData", vtu_strips)) read_strips(*array);
-  }
-
-  void read_strips(const VtuArray& array) {
-    std::string texts;
-    for (const std::string& text : numbers_.texts(array)) texts += text + "\n";
-    mesh_.strips = strips_in_comments(texts, static_cast<std::int32_t>(document_.points)).strips;
-    mesh_.pairs = pairs_in_comments(texts);
-    mesh_.named_nodes = nodes_in_comments(texts, static_cast<std::int32_t>(document_.points));
-  }
-
-  /// In our own files; invalid counts are ignored.
-  void read_layers() {
-    const VtuArray* const counts = document_.find("FieldData", vtu_layer_counts);
-    const VtuArray* const thicknesses = document_.find("FieldData", vtu_layer_thicknesses);
-    if (counts == nullptr || counts->type.starts_with("Float")) return;
-    const std::vector<std::int64_t> of_boundary = numbers_.integers(*counts, std::ssize(boundary_names_));
-    const std::vector<double> thickness = thicknesses == nullptr
-                                              ? std::vector<double>(of_boundary.size())
-                                              : finite_reals(*thicknesses, std::ssize(boundary_names_), 1);
-    has_layers_ = true;
-    for (std::size_t b = 0; b < of_boundary.size(); ++b) {
-      const bool is_count = of_boundary[b] > 0 && of_boundary[b] <= std::numeric_limits<std::int32_t>::max();
-      if (!is_count) continue;
-      mesh_.boundaries[mesh_.boundary_named(boundary_names_[b])].layers = {
-          static_cast<std::int32_t>(of_boundary[b]), std::max(0.0, thickness[b])};
-    }
   }
 
   static std::string name_of(const std::vector<std::string>& names, std::int64_t number, const char* kind,
@@ -222,7 +182,7 @@ class VtuReader {
 
   template <CellKind kind, class Nodes>
   void add(const Nodes& nodes) {
-    add_cell<kind>(mesh_, nodes, mesh_.block_named(name_of(block_names_, block_, "block", "domain")));
+    add_cell<kind>(mesh_, nodes, mesh_.block_named(name_of(names_.blocks, block_, "block", "domain")));
     cells_of_kind_[static_cast<std::size_t>(kind)].push_back(static_cast<std::int32_t>(cell_ - 1));
   }
 
@@ -239,9 +199,9 @@ class VtuReader {
     Field solution;
     std::vector<std::vector<double>> at_points, in_cells;
     for (const VtuArray& array : document_.arrays) {
-      if (array.section == "PointData" && array.type != "String" && !is_layer_height(array))
+      if (is_nodal_variable(array, names_))
         add_columns(array, document_.points, "node", solution.names, at_points);
-      if (array.section == "CellData" && array.type.starts_with("Float"))  // integers are marks
+      if (is_cell_variable(array))
         add_columns(array, document_.cells, "cell", solution.cells.names, in_cells);
     }
     if (solution.empty()) return;
@@ -257,30 +217,18 @@ class VtuReader {
     for (const std::vector<double>& column : columns) values.push_back(column[row]);
   }
 
-  bool is_layer_height(const VtuArray& array) const {
-    return has_layers_ && (array.name == vtu_layer_height_asked || array.name == vtu_layer_height);
-  }
-
   void add_columns(const VtuArray& array, std::int64_t count, const char* place,
                    std::vector<std::string>& names, std::vector<std::vector<double>>& columns) const {
     const std::size_t width = array.components;
-    if (array.components > 9)
-      scan_.refuse_at(array.place,
-                      fmt::format("'{}' has {} components; at most 9 can be read", array.name, width));
+    name_of_component(scan_, array, 0);  // refuses too many
     const std::vector<double> values = finite_reals(array, count * array.components, width, place);
     for (std::size_t k = 0; k < width; ++k) {
       std::vector<double> column(count);
       for (std::int64_t i = 0; i < count; ++i) column[i] = values[i * width + k];
-      if (is_plane() && k == 2 && width == 3 &&
+      if (is_plane() && is_third(array, k) &&
           std::all_of(column.begin(), column.end(), [](double value) { return value == 0; }))
         continue;
-      if (width == 1) {
-        names.push_back(array.name);
-      } else if (width <= 3) {
-        names.push_back(array.name + "_" + "xyz"[k]);
-      } else {
-        names.push_back(array.name + "_" + std::to_string(k + 1));
-      }
+      names.push_back(name_of_component(scan_, array, k));
       columns.push_back(std::move(column));
     }
   }
@@ -290,9 +238,8 @@ class VtuReader {
   VtuNumbers numbers_;
   FileMesh mesh_;
   std::vector<std::int64_t> types_;
-  std::vector<std::string> boundary_names_, block_names_;
+  VtuNames names_;
   VtuBoundaryNumbers boundaries_;
-  bool has_layers_ = false;
   std::array<std::vector<std::int32_t>, cell_kinds> cells_of_kind_;  ///< numbers among all cells of the file
   std::size_t place_ = 0, cell_ = 0;  ///< of the current element; elements are numbered from 1
   std::int64_t block_ = 0;            ///< its number in the file
