@@ -30,6 +30,7 @@ COMMANDS = {
     "convert from .qmesh to .vtu": ["convert", "a.qmesh", "new.vtu"],
     "convert from .cgns": ["convert", "a.cgns", "new.mesh"],
     "convert from .su2": ["convert", "a.su2", "new.mesh"],
+    "convert from .vtu": ["convert", "a.vtu", "new.mesh"],
     "extrude to .vtu": ["extrude", "a.mesh", "-o", "new.vtu", "--layers", "2", "--thickness", "1"],
     "morph": ["morph", "a.mesh", "--geometry", "a.geom", "--from", "a.geom", "-o", "new.mesh"],
     "check": ["check", "a.mesh"],
@@ -66,7 +67,7 @@ def prepare(args, folder):
     """The mesh as a.*, its geometry, and a solution on it."""
     def run(name, *arguments):
         subprocess.run([str(word) for word in (args.quadloop, *options_of(name, arguments, args.finer))], cwd=folder, check=True, stdout=subprocess.DEVNULL)
-    run("mesh", "mesh", AIRFOIL, "-o", "a", "--geometry-out", "a.geom", "--set", 'output.formats=["mesh","qmesh","cgns","su2"]')
+    run("mesh", "mesh", AIRFOIL, "-o", "a", "--geometry-out", "a.geom", "--set", 'output.formats=["mesh","qmesh","cgns","su2","vtu"]')
     run("solve", "solve", AIRFOIL, "a.mesh", "-o", "s.mesh", *FLOW)
 
 
