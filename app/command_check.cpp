@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <mpi.h>
 
 #include <algorithm>
 #include <iostream>
@@ -18,6 +17,7 @@
 #include "io/mesh_file.hpp"
 #include "mesher/base/counted.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/base/parallel/reproducible_sum.hpp"
 #include "mesher/geometry/assemble/assemble.hpp"
 
 namespace quadloop::app {
@@ -42,60 +42,80 @@ bool has_more_than_outline(const io::LoadedMesh& loaded, std::span<const Chain> 
 }
 
 /// Returns the geometry as `mesh` would use it: joined, with consistently directed loops. Unless it is the
-/// outline of a single domain it is left unchanged.
+/// outline of a single domain it is left unchanged. Every rank reads it. *Collective.*
 std::vector<Chain> load_chains(const CommandContext& context, const std::string& path,
                                const io::LoadedMesh& loaded) {
   Warnings warnings;
-  std::vector<Chain> chains = io::read_geometry(path, warnings);
-  AssembleOptions options;
-  options.domain_is_known = true;
-  if (!has_more_than_outline(loaded, chains))
-    chains = chains_of(assemble(std::move(chains), options, warnings));
+  std::vector<Chain> chains;
+  context.comm.together([&] {
+    chains = io::read_geometry(path, warnings);
+    AssembleOptions options;
+    options.domain_is_known = true;
+    if (!has_more_than_outline(loaded, chains))
+      chains = chains_of(assemble(std::move(chains), options, warnings));
+  });
   context.warn(warnings);
   return chains;
 }
 
-/// Compares the boundaries and inner lines of a mesh with the geometry.
-GeometryFit fit_to(const io::LoadedMesh& loaded, const std::vector<Chain>& chains, const CellBlocks& blocks) {
-  if (loaded.inner_curves.empty()) return validate_geometry(loaded.mesh, chains, blocks);
-  io::LoadedMesh listed = loaded;
-  io::list_inner_curves(listed);
-  return validate_geometry(listed.mesh, chains, blocks);
+/// Returns the number of edges of each boundary. *Collective.*
+CheckReport::Edges edges_of(const Communicator& comm, const std::vector<BoundaryEdges>& boundaries) {
+  CheckReport::Edges edges;
+  for (const BoundaryEdges& boundary : boundaries)
+    edges.emplace_back(boundary.name, comm.sum(std::ssize(boundary.edges)));
+  return edges;
 }
 
-/// Checks a mesh whose connectivity is valid, as that of every mesh read from a file is.
-CheckReport examine(const io::LoadedMesh& loaded, const std::vector<Chain>* chains) {
+/// Adds what is computed on a HaloMesh, and the fit to the geometry, if there is one. *Collective.*
+void examine_halo(const Communicator& comm, const io::LoadedMesh& loaded, const LayerPlaces& places,
+                  const std::vector<Chain>& chains, bool with_geometry, CheckReport& report) {
+  const Mesh& mesh = loaded.mesh;
+  const CellBlocks blocks{loaded.blocks, loaded.triangle_to_block, loaded.quad_to_block};
+  const HaloMesh halo(comm, mesh);
+  const EdgeStatistics edges = edge_statistics(comm, mesh, halo, blocks);
+  report.shape = shape_statistics(comm, mesh, halo, edges, chains);
+  report.largest_area_ratio = edges.ratios.place;
+  report.pinched_nodes = edges.pinched_nodes;
+  report.regions = edges.regions;
+  report.interfaces = interface_edges(comm, mesh, edges.between_blocks);
+  if (has_layers(mesh)) report.layers = layer_statistics(comm, mesh, halo, places);
+  if (!with_geometry || report.quality.counts.triangles + report.quality.counts.quads == 0) return;
+  if (loaded.inner_curves.empty()) {
+    report.fit = validate_geometry(comm, mesh, halo, edges, chains, blocks);
+    return;
+  }
+  io::LoadedMesh listed = loaded;
+  io::list_inner_curves(listed);
+  report.fit = validate_geometry(comm, listed.mesh, halo, edges, chains, blocks);
+}
+
+/// Checks a distributed mesh whose connectivity is valid, as that of every mesh read from a file is. It is
+/// gathered on the root only to name its faults, unless it is certainly valid. *Collective.*
+CheckReport examine(const Communicator& comm, const io::LoadedMesh& loaded, const std::vector<Chain>& chains,
+                    bool with_geometry) {
   const Mesh& mesh = loaded.mesh;
   CheckReport report;
-  const CellBlocks blocks{loaded.blocks, loaded.triangle_to_block, loaded.quad_to_block};
-  report.blocks = block_statistics(mesh, blocks, loaded.block_names);
-  for (const BoundaryEdges& boundary : mesh.boundaries)
-    report.boundaries.emplace_back(boundary.name, boundary.edges.size());
-  for (const BoundaryEdges& line : loaded.inner_curves)
-    report.inner_lines.emplace_back(line.name, line.edges.size());
+  report.blocks =
+      block_statistics(comm, mesh, {loaded.blocks, loaded.triangle_to_block, loaded.quad_to_block},
+                       loaded.block_names);
+  report.boundaries = edges_of(comm, mesh.boundaries);
+  report.inner_lines = edges_of(comm, loaded.inner_curves);
   for (const PeriodicPair& pair : mesh.pairs) report.pairs.push_back(pair.from + " and " + pair.to);
-  report.quality = summarise_quality(Communicator(MPI_COMM_SELF), mesh);
-  const MeshTopology topology(mesh);
-  report.shape =
-      shape_statistics(mesh, topology, chains == nullptr ? std::span<const Chain>() : std::span(*chains));
-  report.statistics = solver_statistics(Communicator(MPI_COMM_SELF), mesh);
+  report.quality = summarise_quality(comm, mesh);
+  report.statistics = solver_statistics(comm, mesh);
   LayerPlaces places;
   if (has_layers(mesh)) {
-    places = layer_places(Communicator(MPI_COMM_SELF), mesh);
-    report.layers = layer_statistics(mesh, places);
-    report.by_layers = quality_by_layers(Communicator(MPI_COMM_SELF), mesh, places);
+    places = layer_places(comm, mesh);
+    report.by_layers = quality_by_layers(comm, mesh, places);
   }
-  report.faces = face_statistics(Communicator(MPI_COMM_SELF), mesh, places);
-  report.worst = worst_places(mesh, topology, places);
-  report.area = area_of(mesh);
-  report.pinched_nodes = pinched_nodes(mesh, topology);
-  report.regions = connected_regions(mesh, topology);
-  report.interfaces = interface_edges(mesh, blocks, topology);
-  report.faults = validate(mesh, blocks);
-  const bool has_cells = report.quality.counts.triangles + report.quality.counts.quads > 0;
-  if (chains == nullptr || !has_cells) return report;
-  report.fit = fit_to(loaded, *chains, blocks);
-  report.faults.insert(report.faults.end(), report.fit->faults.begin(), report.fit->faults.end());
+  report.faces = face_statistics(comm, mesh, places);
+  report.worst = worst_places(comm, mesh, places);
+  report.area = reproducible_sum(comm, cell_areas(mesh));
+  examine_halo(comm, loaded, places, chains, with_geometry, report);
+  places = {};
+  report.faults = faults_of(comm, loaded);
+  if (report.fit)
+    report.faults.insert(report.faults.end(), report.fit->faults.begin(), report.fit->faults.end());
   return report;
 }
 
@@ -119,25 +139,33 @@ void check_mesh3d_on_root(const CommandContext& context, const CheckArguments& a
   if (!statistics.faults.empty()) refuse_invalid_mesh3d(arguments.input, statistics);
 }
 
-void check_plane_on_root(const CommandContext& context, const CheckArguments& arguments,
-                         const io::LoadedMesh& loaded) {
+/// *Collective.*
+void check_plane(const CommandContext& context, const CheckArguments& arguments,
+                 const io::LoadedMesh& loaded) {
+  const Communicator& comm = context.comm;
   context.warn(loaded.warnings);
+  const bool with_geometry = !arguments.geometry.empty();
   std::vector<Chain> chains;
-  if (!arguments.geometry.empty()) chains = load_chains(context, arguments.geometry, loaded);
-  CheckReport report = examine(loaded, arguments.geometry.empty() ? nullptr : &chains);
+  if (with_geometry) chains = load_chains(context, arguments.geometry, loaded);
+  CheckReport report = examine(comm, loaded, chains, with_geometry);
   report.file = arguments.input;
   if (report.regions.count > 1) context.warn({regions_warning(report)});
-  context.record.statistics = report_record(report);
-  if (context.shows_table()) std::cout << report_text(report, context.verbose) << std::flush;
-  if (!report.faults.empty()) refuse_invalid(report.file, report.faults);
+  comm.together([&] {
+    if (!comm.is_root()) return;
+    context.record.statistics = report_record(report);
+    if (context.shows_table()) std::cout << report_text(report, context.verbose) << std::flush;
+    if (!report.faults.empty()) refuse_invalid(report.file, report.faults);
+  });
 }
 
-void check_on_root(const CommandContext& context, const CheckArguments& arguments) {
-  const io::MeshOfFile mesh = io::read_mesh_file(arguments.input);
+/// A 3D mesh is whole on the root. *Collective.*
+void run_check(const CommandContext& context, const CheckArguments& arguments) {
+  const io::MeshOfFile mesh = io::read_mesh_file(context.comm, arguments.input);
   if (const io::LoadedMesh* plane = std::get_if<io::LoadedMesh>(&mesh))
-    check_plane_on_root(context, arguments, *plane);
-  else
-    check_mesh3d_on_root(context, arguments, std::get<io::FileMesh>(mesh));
+    return check_plane(context, arguments, *plane);
+  context.comm.together([&] {
+    if (context.comm.is_root()) check_mesh3d_on_root(context, arguments, std::get<io::FileMesh>(mesh));
+  });
 }
 
 }  // namespace
@@ -155,11 +183,7 @@ void add_check_command(CommandLine& line, CommandContext& context) {
       .add_option("--geometry", arguments->geometry,
                   "the geometry of the mesh, as written by `mesh --geometry-out`")
       .value_name("FILE.geom");
-  command.set_work([&context, arguments] {
-    context.comm.together([&] {  // only the root rank works; its exit status becomes that of every rank
-      if (context.comm.is_root()) check_on_root(context, *arguments);
-    });
-  });
+  command.set_work([&context, arguments] { run_check(context, *arguments); });
 }
 
 }  // namespace quadloop::app

@@ -91,7 +91,7 @@ void add_shape(Statistics& statistics, const CheckReport& report, bool verbose) 
   statistics.add_member("min_angle_made", json_of(shape.smallest_degrees));
   statistics.add_member("max_angle_made", json_of(shape.largest_degrees));
   statistics.add("largest area ratio", shape.area_ratio_max, number_pattern, "area_ratio_max");
-  if (shape.area_ratio_max > 0) statistics.add_place(report.worst.largest_area_ratio, "area_ratio_max_at");
+  if (shape.area_ratio_max > 0) statistics.add_place(report.largest_area_ratio, "area_ratio_max_at");
   statistics.add("area ratio, 99 %", shape.area_ratio_p99, number_pattern, "area_ratio_p99");
   statistics.add("share of quads", shape.quad_share, number_pattern, "quad_share");
   statistics.add("parallelograms", shares.parallelogram_share(), number_pattern, "parallelogram_share");

@@ -6,12 +6,14 @@
 
 #include "mesher/base/json.hpp"
 #include "mesher/mesh/check/block_statistics.hpp"
+#include "mesher/mesh/check/edge_statistics.hpp"
 #include "mesher/mesh/check/face_statistics.hpp"
 #include "mesher/mesh/check/layer_statistics.hpp"
 #include "mesher/mesh/check/quality.hpp"
 #include "mesher/mesh/check/shape_statistics.hpp"
 #include "mesher/mesh/check/solver_statistics.hpp"
 #include "mesher/mesh/check/validate.hpp"
+#include "mesher/mesh/check/validate_geometry.hpp"
 #include "mesher/mesh/check/worst_places.hpp"
 
 namespace quadloop::app {
@@ -30,12 +32,13 @@ struct CheckReport {
   std::vector<LayerStatistics> layers;
   QualityByLayers by_layers;  ///< if there are layers
   FaceStatisticsByLayers faces;
-  WorstPlaces worst;  ///< of the cells outside layers, except for the area ratio
+  WorstPlaces worst;
+  Point largest_area_ratio;  ///< its place
   double area = 0;
   std::int64_t pinched_nodes = 0;
   MeshRegions regions;
-  std::optional<GeometryFit> fit;  ///< its errors are also in `faults`
-  std::vector<MeshFault> faults;
+  std::optional<GeometryFit> fit;  ///< on the root; its errors are also in `faults`
+  std::vector<MeshFault> faults;   ///< on the root
 };
 
 /// Returns a table, angles in degrees. At most 20 boundaries and 20 errors of each rule are listed, with the

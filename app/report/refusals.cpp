@@ -67,6 +67,13 @@ void refuse_invalid(const std::string& file, const std::vector<MeshFault>& fault
                                cure));
 }
 
+std::vector<MeshFault> faults_of(const Communicator& comm, const io::LoadedMesh& loaded) {
+  std::vector<MeshFault> found;
+  if_not_valid(comm, loaded,
+               [&](const io::LoadedMesh&, const std::vector<MeshFault>& faults) { found = faults; });
+  return found;
+}
+
 std::vector<std::string> doubts_about(const Communicator& comm, const io::LoadedMesh& loaded,
                                       const std::string& file) {
   std::vector<std::string> doubts;

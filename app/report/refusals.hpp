@@ -16,6 +16,10 @@ std::string more_faults(std::int64_t count);
 /// Throws InputError with the first error, its location, and the number of others.
 [[noreturn]] void refuse_invalid(const std::string& file, const std::vector<MeshFault>& faults);
 
+/// Returns the faults of a distributed mesh on the root. It is gathered only if it is not certainly valid.
+/// *Collective.*
+std::vector<MeshFault> faults_of(const Communicator& comm, const io::LoadedMesh& loaded);
+
 /// Returns a warning if a distributed mesh that is passed on unchanged is not valid: its first error, and the
 /// number of others. Otherwise empty. *Collective.*
 std::vector<std::string> doubts_about(const Communicator& comm, const io::LoadedMesh& loaded,

@@ -9,7 +9,7 @@
 #include "mesher/base/counted.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/parallel/reproducible_sum.hpp"
-#include "mesher/mesh/check/validate.hpp"
+#include "mesher/mesh/check/validate_geometry.hpp"
 
 namespace quadloop {
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/check/validate.hpp"
 #include "mesher/mesh/mesh.hpp"
-#include "mesher/mesh/topology.hpp"
 
 namespace quadloop {
 
@@ -18,9 +18,10 @@ struct BlockStatistics {
   double area = 0;
 };
 
-/// Returns the size of each block of a mesh that is whole on this rank. `names` are those of the blocks.
-std::vector<BlockStatistics> block_statistics(const Mesh& mesh, const CellBlocks& blocks,
-                                              std::span<const std::string> names);
+/// Returns the size of each block; `blocks` has the blocks of this rank's cells, `names` are those of the
+/// blocks. Bitwise independent of the number of ranks. *Collective.*
+std::vector<BlockStatistics> block_statistics(const Communicator& comm, const Mesh& mesh,
+                                              const CellBlocks& blocks, std::span<const std::string> names);
 
 /// Edges between cells of two blocks.
 struct InterfaceEdges {
@@ -28,7 +29,7 @@ struct InterfaceEdges {
   std::int64_t unnamed = 0;  ///< of these, those that belong to no boundary
 };
 
-/// `topology` must keep all edges.
-InterfaceEdges interface_edges(const Mesh& mesh, const CellBlocks& blocks, const MeshTopology& topology);
+/// `between_blocks` is the number of edges between two blocks (EdgeStatistics). *Collective.*
+InterfaceEdges interface_edges(const Communicator& comm, const Mesh& mesh, std::int64_t between_blocks);
 
 }  // namespace quadloop

@@ -6,6 +6,7 @@
 
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/check/quality.hpp"
+#include "mesher/mesh/halo_mesh.hpp"
 #include "mesher/mesh/layers/layer_nodes.hpp"
 #include "mesher/mesh/mesh.hpp"
 
@@ -32,8 +33,10 @@ struct LayerStatistics {
   double asked = 0;  ///< requested total thickness; 0: not known
 };
 
-/// Measures all boundaries with layers, then all strips, of a mesh that is whole on this rank.
-std::vector<LayerStatistics> layer_statistics(const Mesh& whole, const LayerPlaces& places);
+/// Measures all boundaries with layers, then all strips. `halo` and `places` are those of `mesh`. A column is
+/// followed from rank to rank. Bitwise independent of the number of ranks. *Collective.*
+std::vector<LayerStatistics> layer_statistics(const Communicator& comm, const Mesh& mesh,
+                                              const HaloMesh& halo, const LayerPlaces& places);
 
 /// Quality of the cells in layers and of the others.
 struct QualityByLayers {

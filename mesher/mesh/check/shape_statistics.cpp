@@ -2,24 +2,21 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <functional>
-#include <limits>
-#include <optional>
+#include <tuple>
 #include <unordered_map>
+#include <unordered_set>
+#include <utility>
 
-#include "mesher/mesh/check/cell_pairs.hpp"
+#include "mesher/base/parallel/exchange.hpp"
 #include "mesher/mesh/check/corner_range.hpp"
-#include "mesher/mesh/check/quality.hpp"
-#include "mesher/mesh/halo_mesh.hpp"
-#include "mesher/mesh/topology.hpp"
+#include "mesher/mesh/node_exchange.hpp"
 
 namespace quadloop {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double sharp_vertex_degrees = 60, sharp_corner_degrees = 30;
 
 struct PointHash {
@@ -49,45 +46,31 @@ double interior_degrees(Point previous, Point p, Point next) {
   return degrees < 0 ? degrees + 360 : degrees;
 }
 
-/// The sharp vertices of the geometry, and the smallest exempt cell angle at each.
-class SharpVertices {
- public:
-  /// The geometry passes each vertex once; where it continues from chain to chain, their end points are
-  /// identical.
-  explicit SharpVertices(std::span<const Chain> geometry) {
-    std::unordered_map<Point, Point, PointHash> following;
-    for_each_segment(geometry, [&](Point from, Point to) { following[from] = to; });
-    for_each_segment(geometry, [&](Point from, Point to) {
-      const auto next = following.find(to);
-      if (next != following.end() && interior_degrees(from, to, next->second) < sharp_vertex_degrees)
-        smallest_.emplace(to, infinity);
-    });
-  }
+/// The sharp vertices of the geometry. It passes each vertex once; where it continues from chain to chain,
+/// their end points are identical.
+std::unordered_set<Point, PointHash> sharp_vertices(std::span<const Chain> geometry) {
+  std::unordered_map<Point, Point, PointHash> following;
+  for_each_segment(geometry, [&](Point from, Point to) { following[from] = to; });
+  std::unordered_set<Point, PointHash> sharp;
+  for_each_segment(geometry, [&](Point from, Point to) {
+    const auto next = following.find(to);
+    if (next != following.end() && interior_degrees(from, to, next->second) < sharp_vertex_degrees)
+      sharp.insert(to);
+  });
+  return sharp;
+}
 
-  /// Whether the cell corner at p is exempt. `own`: it lies between two boundary edges, i.e. is the
-  /// boundary's own angle.
-  bool excepts(Point p, double degrees, bool own) {
-    if (!(degrees > 0 && degrees < sharp_corner_degrees)) return false;
-    auto vertex = smallest_.find(p);
-    if (vertex == smallest_.end() && own) vertex = smallest_.emplace(p, infinity).first;
-    if (vertex == smallest_.end()) return false;
-    vertex->second = std::min(vertex->second, degrees);
-    return true;
-  }
+/// The order of the lists of places.
+bool comes_before(const SharpPlace& a, const SharpPlace& b) {
+  return a.place != b.place ? a.place < b.place : a.degrees < b.degrees;
+}
 
-  std::vector<SharpPlace> places() const {
-    std::vector<SharpPlace> places;
-    for (const auto& [place, degrees] : smallest_) {
-      if (degrees < infinity) places.push_back({place, degrees});
-    }
-    std::sort(places.begin(), places.end(),
-              [](const SharpPlace& a, const SharpPlace& b) { return a.place < b.place; });
-    return places;
-  }
-
- private:
-  std::unordered_map<Point, double, PointHash> smallest_;
-};
+/// Returns the places of all ranks in order. *Collective.*
+std::vector<SharpPlace> all_places(const Communicator& comm, const std::vector<SharpPlace>& own) {
+  std::vector<SharpPlace> all = comm.all_gather_values(std::span<const SharpPlace>(own));
+  std::ranges::sort(all, comes_before);
+  return all;
+}
 
 void count_corner(double degrees, ShapeStatistics& shape) {
   shape.corners_below_15 += degrees < 15 ? 1 : 0;
@@ -102,168 +85,163 @@ bool is_ordinary(const CellCorner& corner) {
   return corner.cross > tangent_of_30 * slightly_more * std::abs(corner.dot);
 }
 
-/// Finds the cells that span a passage.
-class PassageTest {
+/// A cell at a narrow corner, with all nodes on the boundary; of a triangle the last node is invalid.
+struct NarrowCell {
+  SharpPlace corner;
+  std::array<GlobalNodeId, 4> nodes;
+
+  std::size_t width() const { return nodes[3].valid() ? 4 : 3; }
+};
+
+/// Counts the corners at this rank's nodes.
+class CornerTally {
  public:
-  PassageTest(const Mesh& mesh, const MeshTopology& topology)
-      : table_{topology.table()}, on_boundary_(mesh.points.size(), 0) {
-    for (const auto& [from, to] : topology.outer_edges()) on_boundary_[from] = on_boundary_[to] = 1;
+  /// *Collective.*
+  CornerTally(const Communicator& comm, const Mesh& mesh, const HaloMesh& halo,
+              const std::vector<OneSidedEdge>& one_sided, std::span<const Chain> geometry)
+      : comm_{comm},
+        mesh_{mesh},
+        halo_{halo},
+        has_geometry_{!geometry.empty()},
+        sharp_{sharp_vertices(geometry)} {
+    if (has_geometry_) find_boundary(one_sided);
+    halo.for_each_cell([&](const auto& nodes) {
+      for (std::size_t k = 0; k < nodes.size(); ++k) {
+        if (halo.owns(nodes[k])) add_corner(nodes, k);
+      }
+    });
   }
 
-  bool is_boundary(NodeId from, NodeId to) const { return !is_inner(from, to); }
-
-  /// Whether all nodes of a cell are on the boundary, and no two of its boundary edges meet.
-  template <std::size_t width>
-  bool fills(const std::array<NodeId, width>& cell) const {
-    for (const NodeId node : cell) {
-      if (on_boundary_[node] == 0) return false;
-    }
-    for (std::size_t k = 0; k < width; ++k) {
-      const NodeId a = cell[k], b = cell[(k + 1) % width], c = cell[(k + 2) % width];
-      if (!is_inner(a, b) && !is_inner(b, c)) return false;
-    }
-    return true;
+  /// *Collective.*
+  void add_to(ShapeStatistics& shape) {
+    count_passages();
+    shape.corners = comm_.sum(own_.corners);
+    shape.corners_below_15 = comm_.sum(own_.corners_below_15);
+    shape.corners_below_25 = comm_.sum(own_.corners_below_25);
+    shape.corners_below_26 = comm_.sum(own_.corners_below_26);
+    shape.corners_above_150 = comm_.sum(own_.corners_above_150);
+    shape.corners_of_outline = comm_.sum(own_.corners_of_outline);
+    shape.corners_in_passages = comm_.sum(own_.corners_in_passages);
+    const double smallest = comm_.minimum(range_.smallest()), largest = comm_.maximum(range_.largest());
+    if (shape.corners > shape.corners_of_outline + shape.corners_in_passages)
+      std::tie(shape.smallest_degrees, shape.largest_degrees) = std::tuple(smallest, largest);
+    shape.passages = all_places(comm_, own_.passages);
+    shape.sharp_places = all_places(comm_, own_.sharp_places);  // at each place the smallest angle comes first
+    const auto again = std::ranges::unique(shape.sharp_places, {}, &SharpPlace::place);
+    shape.sharp_places.erase(again.begin(), again.end());
   }
 
  private:
-  bool is_inner(NodeId from, NodeId to) const { return table_.cell_left_of(to, from) >= 0; }
+  using Edge = std::array<GlobalNodeId, 2>;
 
-  const EdgeTable& table_;
-  NodeFlags on_boundary_;
-};
+  /// *Collective.*
+  void find_boundary(const std::vector<OneSidedEdge>& one_sided) {
+    on_boundary_ = NodeFlags(halo_.points().size(), 0);
+    for (const OneSidedEdge& edge : one_sided) {
+      on_boundary_[edge.from] = on_boundary_[edge.to] = 1;
+      boundary_.push_back({halo_.global(edge.from), halo_.global(edge.to)});
+    }
+    halo_.exchange().update(on_boundary_);
+    std::ranges::sort(boundary_);
+  }
 
-template <class Cells>
-void add_corners(const Mesh& mesh, const Cells& cells, SharpVertices& sharp, const PassageTest* passages,
-                 ShapeStatistics& shape, CornerRange& range) {
-  for (const auto& nodes : cells) {
-    const std::size_t width = nodes.size();
-    for (std::size_t k = 0; k < width; ++k) {
-      const Point p = mesh.point(nodes[k]);
-      const CellCorner corner(mesh.point(nodes[(k + width - 1) % width]), p,
-                              mesh.point(nodes[(k + 1) % width]));
-      ++shape.corners;
-      if (is_ordinary(corner)) {
-        range.include(corner);
-        continue;
-      }
-      const double degrees = corner.degrees();
-      const bool own = passages != nullptr &&
-                       passages->is_boundary(nodes[(k + width - 1) % width], nodes[k]) &&
-                       passages->is_boundary(nodes[k], nodes[(k + 1) % width]);
-      if (sharp.excepts(p, degrees, own)) {
-        ++shape.corners_of_outline;
-      } else if (passages != nullptr && degrees > 0 && degrees < sharp_corner_degrees &&
-                 passages->fills(nodes)) {
-        ++shape.corners_in_passages;
-        shape.passages.push_back({p, degrees});
-      } else {
-        count_corner(degrees, shape);
-        range.include(corner);
-      }
+  /// Whether a cell's edge at one of this rank's nodes is on the boundary.
+  bool is_boundary(NodeId from, NodeId to) const {
+    return std::ranges::binary_search(boundary_, Edge{halo_.global(from), halo_.global(to)});
+  }
+
+  template <class Nodes>
+  void add_corner(const Nodes& nodes, std::size_t k) {
+    const NodeId before = nodes[(k + nodes.size() - 1) % nodes.size()], node = nodes[k],
+                 after = nodes[(k + 1) % nodes.size()];
+    const Point p = halo_.point(node);
+    const CellCorner corner(halo_.point(before), p, halo_.point(after));
+    ++own_.corners;
+    if (is_ordinary(corner)) return range_.include(corner);
+    const double degrees = corner.degrees();
+    const bool narrow = has_geometry_ && degrees > 0 && degrees < sharp_corner_degrees;
+    const bool on_boundary = narrow && on_boundary_[node] != 0;
+    if (narrow && (sharp_.contains(p) || (on_boundary && is_boundary(before, node) && is_boundary(node, after)))) {
+      ++own_.corners_of_outline;
+      own_.sharp_places.push_back({p, degrees});
+    } else if (on_boundary && all_on_boundary(nodes)) {
+      NarrowCell& cell = narrow_.emplace_back(NarrowCell{{p, degrees}, {}});
+      for (std::size_t i = 0; i < nodes.size(); ++i) cell.nodes[i] = halo_.global(nodes[i]);
+      narrow_corners_.push_back(corner);
+    } else {
+      count_ordinary(corner, degrees);
     }
   }
-}
 
-void add_all_corners(const Mesh& mesh, const MeshTopology& topology, std::span<const Chain> geometry,
-                     ShapeStatistics& shape) {
-  SharpVertices sharp(geometry);
-  std::optional<PassageTest> test;
-  if (!geometry.empty()) test.emplace(mesh, topology);
-  const PassageTest* passages = test ? &*test : nullptr;
-  CornerRange range;
-  add_corners(mesh, mesh.triangles, sharp, passages, shape, range);
-  add_corners(mesh, mesh.quads, sharp, passages, shape, range);
-  shape.smallest_degrees = range.smallest();
-  shape.largest_degrees = range.largest();
-  if (shape.corners == shape.corners_of_outline + shape.corners_in_passages)
-    shape.smallest_degrees = shape.largest_degrees = 0;
-  shape.sharp_places = sharp.places();
-  std::sort(shape.passages.begin(), shape.passages.end(), [](const SharpPlace& a, const SharpPlace& b) {
-    return a.place != b.place ? a.place < b.place : a.degrees < b.degrees;
-  });
-}
-
-/// Returns one ratio for each inner edge.
-std::vector<double> ratios_at_edges(const Mesh& mesh, const MeshTopology& topology) {
-  const std::vector<double> areas = cell_areas(mesh);
-  const auto area = [&](std::int32_t cell) { return areas[cell]; };
-  std::vector<double> ratios;
-  auto beyond = topology.beyond().begin();
-  for_each_cell_edge(mesh, [&](NodeId from, NodeId to, std::int32_t cell) {
-    const std::int32_t other = *beyond++;
-    if (to < from) return;  // counted by the cell on the other side
-    if (other >= 0) ratios.push_back(area_ratio(area(cell), area(other)));
-  });
-  return ratios;
-}
-
-double area_of_cell(const std::array<Point, 3>& p) { return cross(p[1] - p[0], p[2] - p[0]) / 2; }
-double area_of_cell(const std::array<Point, 4>& p) { return cross(p[2] - p[0], p[3] - p[1]) / 2; }
-
-/// Returns one ratio for each inner edge of which this rank owns the node with the lower number.
-/// *Collective.*
-std::vector<double> ratios_at_edges(const HaloMesh& halo) {
-  std::vector<double> ratios;
-  CellPairs<double> pairs(halo, [](NodeId) { return true; });
-  pairs.for_each([&](const auto& nodes, std::int32_t) { return area_of_cell(corners_of(halo, nodes)); },
-                 [&](NodeId from, NodeId to, double area, double other) {
-                   if (halo.owns(to) || halo.global(from) < halo.global(to))
-                     ratios.push_back(area_ratio(area, other));
-                 });
-  return ratios;
-}
-
-/// The 99th percentile is the smallest value that 99 % do not exceed: its rank, from 1, among `count` values.
-std::int64_t rank_of_99_percent(std::int64_t count) { return (count * 99 + 99) / 100; }
-
-/// Returns the k-th smallest value of all ranks, which are sorted on each and not negative. *Collective.*
-double kth_smallest(const Communicator& comm, const std::vector<double>& values, std::int64_t k) {
-  std::uint64_t low = 0, high = std::bit_cast<std::uint64_t>(std::numeric_limits<double>::infinity());
-  while (low < high) {  // such numbers are ordered as their bits
-    const std::uint64_t middle = low + (high - low) / 2;
-    const auto end = std::ranges::upper_bound(values, std::bit_cast<double>(middle));
-    if (comm.sum(end - values.begin()) >= k)
-      high = middle;
-    else
-      low = middle + 1;
+  template <class Nodes>
+  bool all_on_boundary(const Nodes& nodes) const {
+    return std::ranges::all_of(nodes, [&](NodeId node) { return on_boundary_[node] != 0; });
   }
-  return std::bit_cast<double>(low);
-}
 
-/// Returns the 99th percentile of a non-empty list. Reorders the values.
-double percentile_99(std::vector<double>& values) {
-  const auto at = values.begin() + rank_of_99_percent(std::ssize(values)) - 1;
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
+  void count_ordinary(const CellCorner& corner, double degrees) {
+    count_corner(degrees, own_);
+    range_.include(corner);
+  }
 
-AreaRatios area_ratios(const Mesh& mesh, const MeshTopology& topology) {
-  std::vector<double> ratios = ratios_at_edges(mesh, topology);
-  if (ratios.empty()) return {};
-  return {*std::max_element(ratios.begin(), ratios.end()), percentile_99(ratios)};
-}
+  /// Narrow corners are in passages if no two boundary edges of their cells meet. The owners of the edges'
+  /// first nodes know which edges are on the boundary. *Collective.*
+  void count_passages() {
+    const NodeOwners owners(comm_, mesh_.first_node);
+    std::vector<Edge> edges;
+    std::vector<int> ranks;
+    for (const NarrowCell& cell : narrow_) {
+      for (std::size_t k = 0; k < cell.width(); ++k) {
+        edges.push_back({cell.nodes[k], cell.nodes[(k + 1) % cell.width()]});
+        ranks.push_back(owners.rank_of(cell.nodes[k]));
+      }
+    }
+    const Exchange questions(comm_, ranks);
+    std::vector<char> answers;
+    for (const Edge& edge : questions.deliver(edges))
+      answers.push_back(std::ranges::binary_search(boundary_, edge) ? 1 : 0);
+    answers = questions.answer(answers);
+    auto answer = answers.cbegin();
+    for (std::size_t i = 0; i < narrow_.size(); ++i) {
+      const std::span<const char> on_boundary(answer, narrow_[i].width());
+      answer += std::ssize(on_boundary);
+      add_narrow(narrow_[i].corner, narrow_corners_[i], on_boundary);
+    }
+  }
+
+  void add_narrow(const SharpPlace& place, const CellCorner& corner, std::span<const char> on_boundary) {
+    bool meet = false;
+    for (std::size_t k = 0; k < on_boundary.size(); ++k)
+      meet = meet || (on_boundary[k] != 0 && on_boundary[(k + 1) % on_boundary.size()] != 0);
+    if (meet) return count_ordinary(corner, place.degrees);
+    ++own_.corners_in_passages;
+    own_.passages.push_back(place);
+  }
+
+  const Communicator& comm_;
+  const Mesh& mesh_;
+  const HaloMesh& halo_;
+  bool has_geometry_;
+  std::unordered_set<Point, PointHash> sharp_;
+  NodeFlags on_boundary_;
+  std::vector<Edge> boundary_;  ///< edges with a cell on their left only, at this rank's nodes, sorted
+  std::vector<NarrowCell> narrow_;
+  std::vector<CellCorner> narrow_corners_;
+  ShapeStatistics own_;
+  CornerRange range_;
+};
 
 }  // namespace
 
-AreaRatios area_ratios(const Communicator& comm, const Mesh& mesh) {
-  std::vector<double> ratios = ratios_at_edges(HaloMesh(comm, mesh));
-  const std::int64_t count = comm.sum(std::ssize(ratios));
-  if (count == 0) return {};
-  std::ranges::sort(ratios);
-  return {comm.maximum(ratios.empty() ? 0 : ratios.back()),
-          kth_smallest(comm, ratios, rank_of_99_percent(count))};
-}
-
-ShapeStatistics shape_statistics(const Mesh& whole_mesh, const MeshTopology& topology,
-                                 std::span<const Chain> geometry) {
+ShapeStatistics shape_statistics(const Communicator& comm, const Mesh& mesh, const HaloMesh& halo,
+                                 const EdgeStatistics& edges, std::span<const Chain> geometry) {
   ShapeStatistics shape;
-  const double triangles = size32(whole_mesh.triangles), quads = size32(whole_mesh.quads);
-  if (triangles + quads == 0) return shape;
-  shape.quad_share = quads / (triangles + quads);
-  add_all_corners(whole_mesh, topology, geometry, shape);
-  const AreaRatios ratios = area_ratios(whole_mesh, topology);
-  shape.area_ratio_max = ratios.largest;
-  shape.area_ratio_p99 = ratios.of_99_percent;
+  const MeshCounts counts = count(comm, mesh);
+  const auto cells = static_cast<double>(counts.triangles + counts.quads);
+  if (cells == 0) return shape;
+  shape.quad_share = static_cast<double>(counts.quads) / cells;
+  CornerTally(comm, mesh, halo, edges.one_sided, geometry).add_to(shape);
+  shape.area_ratio_max = edges.ratios.largest;
+  shape.area_ratio_p99 = edges.ratios.of_99_percent;
   return shape;
 }
 

@@ -6,8 +6,9 @@
 
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/geometry/geometry.hpp"
+#include "mesher/mesh/check/edge_statistics.hpp"
+#include "mesher/mesh/halo_mesh.hpp"
 #include "mesher/mesh/mesh.hpp"
-#include "mesher/mesh/topology.hpp"
 
 namespace quadloop {
 
@@ -36,18 +37,10 @@ struct ShapeStatistics {
   std::vector<SharpPlace> passages;      ///< exempt corners in passages, in the same order
 };
 
-/// Ratios of the two cell areas at each inner edge, larger by smaller: maximum and 99th percentile. Infinite
-/// for cells without area, 0 without inner edges.
-struct AreaRatios {
-  double largest = 0, of_99_percent = 0;
-};
-
-/// The mesh must have valid node numbers. Linear in time and memory. *Collective.*
-AreaRatios area_ratios(const Communicator& comm, const Mesh& mesh);
-
-/// The mesh must be whole on this rank, with valid node numbers. `geometry` is what it was made from, the
-/// domain to the left of every chain; without it no corner is exempt. Linear in time and memory.
-ShapeStatistics shape_statistics(const Mesh& whole_mesh, const MeshTopology& topology,
-                                 std::span<const Chain> geometry);
+/// `halo` and `edges` are those of `mesh`, which must have valid node numbers. `geometry`, the same on every
+/// rank, is what it was made from, the domain to the left of every chain; without it no corner is exempt.
+/// Linear in time. Independent of the number of ranks. *Collective.*
+ShapeStatistics shape_statistics(const Communicator& comm, const Mesh& mesh, const HaloMesh& halo,
+                                 const EdgeStatistics& edges, std::span<const Chain> geometry);
 
 }  // namespace quadloop

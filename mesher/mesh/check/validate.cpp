@@ -245,37 +245,4 @@ std::vector<MeshFault> validate_topology(const Mesh& mesh, const CellBlocks& blo
   return faults;
 }
 
-std::int64_t pinched_nodes(const Mesh& mesh, const MeshTopology& topology) {
-  IdVector<NodeId, std::int32_t> passages(mesh.points.size(), 0);
-  for (const auto& edge : topology.outer_edges()) ++passages[edge.from];
-  return std::count_if(passages.begin(), passages.end(), [](std::int32_t n) { return n > 1; });
-}
-
-MeshRegions connected_regions(const Mesh& mesh, const MeshTopology& topology) {
-  const std::int64_t triangles = size32(mesh.triangles);
-  const std::int64_t cells = triangles + size32(mesh.quads);
-  const auto neighbours_of = [&](std::int64_t cell) {
-    const bool is_quad = cell >= triangles;
-    return topology.beyond().subspan(is_quad ? 4 * cell - triangles : 3 * cell, is_quad ? 4 : 3);
-  };
-  MeshRegions regions;
-  std::vector<char> seen(cells, 0);
-  std::vector<std::int64_t> reached;
-  for (std::int64_t first = 0; first < cells; ++first) {
-    if (seen[first] != 0) continue;
-    seen[first] = 1;
-    reached.assign(1, first);
-    for (std::size_t next = 0; next < reached.size(); ++next) {
-      for (const std::int32_t neighbour : neighbours_of(reached[next])) {
-        if (neighbour >= 0 && std::exchange(seen[neighbour], 1) == 0) reached.push_back(neighbour);
-      }
-    }
-    if (++regions.count > 1 && std::ssize(reached) >= regions.smallest_cells) continue;
-    regions.smallest_cells = std::ssize(reached);
-    regions.smallest_place =
-        mesh.point(first < triangles ? mesh.triangles[first][0] : mesh.quads[first - triangles][0]);
-  }
-  return regions;
-}
-
 }  // namespace quadloop

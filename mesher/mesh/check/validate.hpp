@@ -7,9 +7,8 @@
 #include <vector>
 
 #include "mesher/base/ids.hpp"
-#include "mesher/geometry/geometry.hpp"
+#include "mesher/geometry/point.hpp"
 #include "mesher/mesh/mesh.hpp"
-#include "mesher/mesh/topology.hpp"
 
 namespace quadloop {
 
@@ -63,46 +62,5 @@ std::vector<MeshFault> validate(const Mesh& mesh, const CellBlocks& blocks = {})
 /// Returns only the errors that moving nodes cannot repair: those of the rules indices, conforming and
 /// closed.
 std::vector<MeshFault> validate_topology(const Mesh& mesh, const CellBlocks& blocks = {});
-
-/// Counts nodes where the boundary passes more than once (non-manifold boundary nodes): allowed, but
-/// reported. The mesh must be valid.
-std::int64_t pinched_nodes(const Mesh& mesh, const MeshTopology& topology);
-
-/// The connected regions of a mesh: cells connected by edges; a pinched node does not connect.
-struct MeshRegions {
-  std::int64_t count = 0;
-  std::int64_t smallest_cells = 0;  ///< number of cells of the smallest region
-  Point smallest_place;             ///< one of its nodes
-};
-
-/// The mesh must be whole on this rank; linear in time. `topology` must keep all edges.
-MeshRegions connected_regions(const Mesh& mesh, const MeshTopology& topology);
-
-/// How well a mesh fits its geometry.
-struct GeometryFit {
-  std::vector<MeshFault> faults;
-  std::int64_t boundaries_dropped = 0;  ///< boundaries of the geometry that the mesh lacks
-  /// Loops, or open chains, without a boundary node; an error if they are longer than the cells there.
-  std::int64_t loops_dropped = 0;
-  /// Points where a closed boundary turns by more than 30 degrees, and ends of open ones.
-  std::int64_t sharp_corners = 0;
-  std::int64_t sharp_corners_lost = 0;  ///< of these, those without a mesh node
-  double boundary_node_distance = 0;    ///< largest distance of a boundary node from its boundary
-  /// Largest distance of a point of the geometry from its boundary in the mesh.
-  double geometry_distance = 0;
-  double area_error = 0;                       ///< relative
-  std::vector<double> block_area_errors = {};  ///< the same of each block, if there are several
-};
-
-/// Largest relative area error from chords and dropped small islands; a mesh with a larger one does not
-/// belong to its geometry.
-inline constexpr double largest_area_error = 0.05;
-
-/// Compares a valid mesh, whole on this rank, with the polylines it was made from. `tolerance` is relative to
-/// the mesh's extent. With several blocks the polylines must have points where blocks meet; one between two
-/// blocks may occur twice, once in each direction: then the mesh must have cells on both sides of it.
-/// Boundaries of the mesh that are inner lines are compared too.
-GeometryFit validate_geometry(const Mesh& mesh, std::span<const Chain> geometry,
-                              const CellBlocks& blocks = {}, double tolerance = 1e-9);
 
 }  // namespace quadloop

@@ -1,8 +1,11 @@
 #include "mesher/mesh/check/worst_places.hpp"
 
 #include <array>
+#include <cstdint>
 #include <limits>
+#include <utility>
 
+#include "mesher/mesh/cells/cell_owners.hpp"
 #include "mesher/mesh/check/corner_range.hpp"
 #include "mesher/mesh/check/quality.hpp"
 
@@ -10,72 +13,73 @@ namespace quadloop {
 
 namespace {
 
+/// The place of a value, and the cell there.
+struct PlacedValue {
+  double value = std::numeric_limits<double>::infinity();
+  std::int64_t cell = std::numeric_limits<std::int64_t>::max();
+  Point place;
+};
+
+/// Returns the place of the smallest value of all ranks, of equal ones that of the first cell. *Collective.*
+Point place_of_smallest(const Communicator& comm, const PlacedValue& own) {
+  PlacedValue smallest;
+  for (const PlacedValue& found : comm.all_gather(own)) {
+    if (std::pair(found.value, found.cell) < std::pair(smallest.value, smallest.cell)) smallest = found;
+  }
+  return smallest.place;
+}
+
+/// The worst of this rank's cells, the first of equal ones; numbered on this rank.
 class WorstCells {
  public:
   WorstCells(const Mesh& mesh, const LayerPlaces& layers) : mesh_{mesh}, layers_{layers} {
-    look_at(mesh.triangles);
-    look_at(mesh.quads);
+    std::int64_t number = 0;
+    mesh.for_each_cell([&](const auto& nodes) { look_at(nodes, number++); });
   }
-  const WorstPlaces& places() const { return places_; }
+
+  /// *Collective.*
+  WorstPlaces over(const Communicator& comm) {
+    const CellOwners owners(comm, mesh_);
+    for (PlacedValue* found : {&smallest_angle_, &largest_angle_, &quality_}) {
+      if (found->value < std::numeric_limits<double>::infinity()) found->cell = owners.number(found->cell);
+    }
+    return {place_of_smallest(comm, smallest_angle_), place_of_smallest(comm, largest_angle_),
+            place_of_smallest(comm, quality_)};
+  }
 
  private:
   template <std::size_t width>
-  void look_at(const std::vector<std::array<NodeId, width>>& cells) {
-    for (const auto& nodes : cells) {
-      if (!layers_.empty() && is_layer_cell(layers_, nodes)) continue;
-      std::array<Point, width> cell;
-      Point sum;
-      for (std::size_t k = 0; k < width; ++k) {
-        cell[k] = mesh_.point(nodes[k]);
-        sum = sum + cell[k];
-      }
-      look_at_corners(cell);
-      const double quality = quality_of(cell);
-      if (quality >= worst_) continue;
-      worst_ = quality;
-      places_.worst_quality = 1.0 / width * sum;
-    }
+  void look_at(const std::array<NodeId, width>& nodes, std::int64_t number) {
+    if (!layers_.empty() && is_layer_cell(layers_, nodes)) return;
+    const std::array<Point, width> cell = corners_of(mesh_, nodes);
+    look_at_corners(cell, number);
+    const double quality = quality_of(cell);
+    if (quality >= quality_.value) return;
+    Point sum;
+    for (const Point p : cell) sum = sum + p;
+    quality_ = {quality, number, 1.0 / width * sum};
   }
 
   template <std::size_t width>
-  void look_at_corners(const std::array<Point, width>& cell) {
+  void look_at_corners(const std::array<Point, width>& cell, std::int64_t number) {
     for (std::size_t k = 0; k < width; ++k) {
-      const double smallest = angles_.smallest(), largest = angles_.largest();
       angles_.include({cell[(k + width - 1) % width], cell[k], cell[(k + 1) % width]});
-      if (angles_.smallest() < smallest) places_.smallest_angle = cell[k];
-      if (angles_.largest() > largest) places_.largest_angle = cell[k];
+      if (angles_.smallest() < smallest_angle_.value) smallest_angle_ = {angles_.smallest(), number, cell[k]};
+      if (-angles_.largest() < largest_angle_.value) largest_angle_ = {-angles_.largest(), number, cell[k]};
     }
   }
 
   const Mesh& mesh_;
   const LayerPlaces& layers_;
   CornerRange angles_;
-  double worst_ = std::numeric_limits<double>::infinity();
-  WorstPlaces places_;
+  PlacedValue smallest_angle_, quality_;
+  PlacedValue largest_angle_;  ///< value: minus the angle
 };
-
-Point place_of_largest_ratio(const Mesh& mesh, const MeshTopology& topology) {
-  const std::vector<double> areas = cell_areas(mesh);
-  double largest = 0;
-  Point place;
-  auto beyond = topology.beyond().begin();
-  for_each_cell_edge(mesh, [&](NodeId from, NodeId to, std::int32_t cell) {
-    const std::int32_t other = *beyond++;
-    if (other < 0 || to < from) return;
-    const double ratio = area_ratio(areas[cell], areas[other]);
-    if (ratio <= largest) return;
-    largest = ratio;
-    place = 0.5 * (mesh.point(from) + mesh.point(to));
-  });
-  return place;
-}
 
 }  // namespace
 
-WorstPlaces worst_places(const Mesh& whole_mesh, const MeshTopology& topology, const LayerPlaces& places) {
-  WorstPlaces worst = WorstCells(whole_mesh, places).places();
-  worst.largest_area_ratio = place_of_largest_ratio(whole_mesh, topology);
-  return worst;
+WorstPlaces worst_places(const Communicator& comm, const Mesh& mesh, const LayerPlaces& places) {
+  return WorstCells(mesh, places).over(comm);
 }
 
 }  // namespace quadloop
