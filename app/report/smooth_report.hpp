@@ -6,7 +6,7 @@
 
 #include "mesher/base/json.hpp"
 #include "mesher/mesh/check/quality.hpp"
-#include "mesher/mesh/check/shape_statistics.hpp"
+#include "mesher/mesh/check/edge_statistics.hpp"
 #include "smoother/shape_histogram.hpp"
 
 namespace quadloop::app {

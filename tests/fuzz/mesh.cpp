@@ -8,6 +8,7 @@
 #include "mesher/base/error.hpp"
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/check/validate.hpp"
+#include "mesher/mesh/check/validate_geometry.hpp"
 #include "tests/fuzz/fuzz.hpp"
 #include "tests/fuzz/layers_from.hpp"
 #include "tests/fuzz/outlines.hpp"

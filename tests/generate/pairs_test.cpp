@@ -20,6 +20,7 @@
 #include "mesher/mesh/check/delaunay_check.hpp"
 #include "mesher/mesh/check/quality.hpp"
 #include "mesher/mesh/check/validate.hpp"
+#include "mesher/mesh/check/validate_geometry.hpp"
 #include "mesher/mesh/paired_nodes.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
 #include "tests/support/world.hpp"

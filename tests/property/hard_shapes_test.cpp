@@ -16,6 +16,7 @@
 #include "mesher/geometry/predicates.hpp"
 #include "mesher/mesh/check/quality.hpp"
 #include "mesher/mesh/check/validate.hpp"
+#include "mesher/mesh/check/validate_geometry.hpp"
 #include "mesher/mesh/topology.hpp"
 #include "smoother/smooth_mesh.hpp"
 #include "tests/property/shapes.hpp"

@@ -2,6 +2,7 @@
 #include "mesher/mesh/check/cell_reach.hpp"
 
 #include <gtest/gtest.h>
+#include <mpi.h>
 
 #include <vector>
 
@@ -25,8 +26,14 @@ TEST(CellReach, LongCellsCountLessTheFartherTheyAre) {
 
 TEST(CellReach, BeyondItsReachTheNearestCellCounts) {
   Reach r;
-  EXPECT_EQ(r.reach.size_at({-1000, 0}, 1), 1);
-  EXPECT_EQ(r.reach.longest_within({-1000, 0}, 1), 1);
+  EXPECT_EQ(r.reach.size_at({-1000, 0}, 1), 0);
+  EXPECT_EQ(r.reach.longest_within({-1000, 0}, 1), 0);
+  const CellReach::Nearest nearest = r.reach.nearest({-1000, 0});
+  EXPECT_EQ(nearest.longest, 1);
+  EXPECT_EQ(nearest.squared_distance, 1e6);
+  const Communicator alone(MPI_COMM_SELF);
+  EXPECT_EQ(answers_over(alone, r.mesh, r.longest, {{{-1000, 0}, 1, true}, {{-1000, 0}, 1, false}}),
+            (std::vector<double>{1, 1}));
 }
 
 TEST(CellReach, LongestWithinADistance) {

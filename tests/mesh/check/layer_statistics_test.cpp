@@ -15,8 +15,11 @@ namespace {
 using test::LayeredStrip;
 using test::world;
 
+/// Those of a mesh, distributed over the ranks.
 std::vector<LayerStatistics> statistics_of(const Mesh& whole) {
-  return layer_statistics(whole, layer_places(Communicator(MPI_COMM_SELF), whole));
+  const Mesh mesh = scatter_mesh(world(), whole, own_order(whole));
+  const HaloMesh halo(world(), mesh);
+  return layer_statistics(world(), mesh, halo, layer_places(world(), mesh));
 }
 
 TEST(LayerStatistics, MeasureColumnsOfQuadsAndOfTriangles) {

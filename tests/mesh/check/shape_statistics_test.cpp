@@ -7,15 +7,25 @@
 #include <numbers>
 
 #include "mesher/base/ids.hpp"
+#include "mesher/mesh/scatter_mesh.hpp"
 #include "tests/mesh/node.hpp"
+#include "tests/support/world.hpp"
 
 namespace quadloop {
 namespace {
 
 using test::node;
+using test::world;
+
+/// The statistics of a mesh, distributed over the ranks.
+ShapeStatistics shape_of(const Mesh& whole, const std::vector<Chain>& geometry) {
+  const Mesh mesh = scatter_mesh(world(), whole, own_order(whole));
+  const HaloMesh halo(world(), mesh);
+  return shape_statistics(world(), mesh, halo, edge_statistics(world(), mesh, halo), geometry);
+}
 
 /// A unit square and, to its right, a right triangle of half its area.
-Mesh square_and_triangle() {
+Mesh square_beside_triangle() {
   Mesh mesh;
   mesh.points = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {2, 0}};
   mesh.owned_nodes = 5;
@@ -47,7 +57,7 @@ std::vector<Chain> wedge(double degrees) {
 }
 
 void expect_excepted_tip(const Mesh& mesh, const std::vector<Chain>& geometry) {
-  const ShapeStatistics shape = shape_statistics(mesh, MeshTopology(mesh), geometry);
+  const ShapeStatistics shape = shape_of(mesh, geometry);
   EXPECT_EQ(shape.corners, 3);
   EXPECT_EQ(shape.corners_of_outline, 1);
   EXPECT_EQ(shape.corners_below_15, 0);
@@ -60,14 +70,14 @@ void expect_excepted_tip(const Mesh& mesh, const std::vector<Chain>& geometry) {
 }
 
 void expect_no_exception(const Mesh& mesh, const std::vector<Chain>& geometry) {
-  const ShapeStatistics shape = shape_statistics(mesh, MeshTopology(mesh), geometry);
+  const ShapeStatistics shape = shape_of(mesh, geometry);
   EXPECT_EQ(shape.corners_of_outline, 0);
   EXPECT_TRUE(shape.sharp_places.empty());
 }
 
 TEST(ShapeStatistics, SquareAndTriangle) {
   const ShapeStatistics shape =
-      shape_statistics(square_and_triangle(), MeshTopology(square_and_triangle()), {});
+      shape_of(square_beside_triangle(), {});
   EXPECT_EQ(shape.corners, 7);
   EXPECT_EQ(shape.corners_below_15, 0);
   EXPECT_EQ(shape.corners_below_26, 0);
@@ -80,7 +90,7 @@ TEST(ShapeStatistics, SquareAndTriangle) {
 }
 
 TEST(ShapeStatistics, EmptyMeshGivesZeros) {
-  const ShapeStatistics shape = shape_statistics(Mesh{}, MeshTopology(Mesh{}), wedge(10));
+  const ShapeStatistics shape = shape_of(Mesh{}, wedge(10));
   EXPECT_EQ(shape.corners, 0);
   EXPECT_EQ(shape.corners_of_outline, 0);
   EXPECT_EQ(shape.smallest_degrees, 0);
@@ -96,7 +106,7 @@ TEST(ShapeStatistics, CountsCornersByTheirAngle) {
   mesh.points = {{0, 0}, {8, 0}, {4, 1}, {20, 0}, {8, 5}};
   mesh.owned_nodes = 5;
   mesh.triangles = {{node(0), node(1), node(2)}, {node(1), node(3), node(4)}};
-  const ShapeStatistics shape = shape_statistics(mesh, MeshTopology(mesh), {});
+  const ShapeStatistics shape = shape_of(mesh, {});
   EXPECT_EQ(shape.corners, 6);
   EXPECT_EQ(shape.corners_below_15, 2);
   EXPECT_EQ(shape.corners_below_26, 3);
@@ -105,7 +115,7 @@ TEST(ShapeStatistics, CountsCornersByTheirAngle) {
 }
 
 TEST(ShapeStatistics, TipCountsWithoutGeometry) {
-  const ShapeStatistics shape = shape_statistics(fan({10}), MeshTopology(fan({10})), {});
+  const ShapeStatistics shape = shape_of(fan({10}), {});
   EXPECT_EQ(shape.corners_of_outline, 0);
   EXPECT_EQ(shape.corners_below_15, 1);
   EXPECT_EQ(shape.corners_below_26, 1);
@@ -125,7 +135,7 @@ TEST(ShapeStatistics, RepeatedPointsAtTheTip) {
 }
 
 TEST(ShapeStatistics, SmallestCornerOfAPlace) {
-  const ShapeStatistics shape = shape_statistics(fan({20, 8, 12}), MeshTopology(fan({20, 8, 12})), wedge(40));
+  const ShapeStatistics shape = shape_of(fan({20, 8, 12}), wedge(40));
   EXPECT_EQ(shape.corners, 9);
   EXPECT_EQ(shape.corners_of_outline, 3);
   EXPECT_EQ(shape.corners_below_26, 0);
@@ -163,13 +173,13 @@ Mesh channel() {
 
 TEST(ShapeStatistics, CornersOfCellsThatFillAPassage) {
   const std::vector<Chain> outline{{"banks", false, {{0, 0}, {10, 0}, {10, 0.1}, {0, 0.1}}, ""}};
-  const ShapeStatistics shape = shape_statistics(channel(), MeshTopology(channel()), outline);
+  const ShapeStatistics shape = shape_of(channel(), outline);
   EXPECT_EQ(shape.corners_in_passages, 18);  // two in each half of a square, but for the halves at the ends,
                                              // of which two edges meet on the boundary
   ASSERT_EQ(shape.passages.size(), 18U);
   EXPECT_EQ(shape.corners_below_15, 2);
   EXPECT_EQ(shape.corners_of_outline, 0);
-  EXPECT_EQ(shape_statistics(channel(), MeshTopology(channel()), {}).corners_in_passages, 0);
+  EXPECT_EQ(shape_of(channel(), {}).corners_in_passages, 0);
 }
 
 /// Unit squares side by side, then one that is three times as long.
@@ -185,22 +195,18 @@ Mesh strip(std::int32_t squares) {
 }
 
 TEST(ShapeStatistics, AreaRatioOf99Percent) {
-  const ShapeStatistics hundred_edges = shape_statistics(strip(100), MeshTopology(strip(100)), {}),
-                        few = shape_statistics(strip(98), MeshTopology(strip(98)), {});
+  const ShapeStatistics hundred_edges = shape_of(strip(100), {}),
+                        few = shape_of(strip(98), {});
   EXPECT_EQ(hundred_edges.area_ratio_max, 3);
   EXPECT_EQ(hundred_edges.area_ratio_p99, 1);
   EXPECT_EQ(few.area_ratio_p99, 3);  // one edge of 98 is more than 1 percent
   EXPECT_EQ(few.quad_share, 1);
-  const AreaRatios alone = area_ratios(Communicator(MPI_COMM_SELF), strip(100));
-  EXPECT_EQ(alone.largest, 3);
-  EXPECT_EQ(alone.of_99_percent, 1);
-  EXPECT_EQ(area_ratios(Communicator(MPI_COMM_SELF), strip(0)).largest, 0);  // no inner edge
 }
 
 TEST(ShapeStatistics, CellWithoutArea) {
-  Mesh mesh = square_and_triangle();
+  Mesh mesh = square_beside_triangle();
   mesh.points[4] = {1, -1};
-  EXPECT_TRUE(std::isinf(shape_statistics(mesh, MeshTopology(mesh), {}).area_ratio_max));
+  EXPECT_TRUE(std::isinf(shape_of(mesh, {}).area_ratio_max));
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "mesher/mesh/check/quality.hpp"
-#include "mesher/mesh/check/shape_statistics.hpp"
+#include "mesher/mesh/check/edge_statistics.hpp"
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
 

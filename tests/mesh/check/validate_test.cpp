@@ -2,12 +2,15 @@
 #include "mesher/mesh/check/validate.hpp"
 
 #include <gtest/gtest.h>
+#include <mpi.h>
 
 #include <algorithm>
 #include <functional>
 #include <limits>
 
 #include "mesher/mesh/check/block_statistics.hpp"
+#include "mesher/mesh/check/edge_statistics.hpp"
+#include "mesher/mesh/check/validate_geometry.hpp"
 #include "tests/mesh/mixed_square.hpp"
 #include "tests/mesh/node.hpp"
 
@@ -37,22 +40,6 @@ void expect_fault(MeshRule rule, const std::function<void(Mesh&)>& spoil) {
 TEST(Validate, ValidMeshHasNoFault) {
   for (const MeshFault& fault : validate(mixed_square()))
     ADD_FAILURE() << name_of(fault.rule) << ": " << fault.what;
-  EXPECT_EQ(pinched_nodes(mixed_square(), MeshTopology(mixed_square())), 0);
-}
-
-TEST(Validate, RegionsAreConnectedByEdges) {
-  const Mesh one = mixed_square();
-  const MeshRegions whole = connected_regions(one, MeshTopology(one));
-  EXPECT_EQ(whole.count, 1);
-  EXPECT_EQ(whole.smallest_cells, std::ssize(one.triangles) + std::ssize(one.quads));
-  Mesh two = one;  // a triangle that shares a node alone with the others
-  two.points.push_back({3, 2.5});
-  two.points.push_back({2.5, 3});
-  two.triangles.push_back({node(8), node(9), node(10)});
-  const MeshRegions regions = connected_regions(two, MeshTopology(two));
-  EXPECT_EQ(regions.count, 2);
-  EXPECT_EQ(regions.smallest_cells, 1);
-  EXPECT_EQ(regions.smallest_place, two.points[8]);
 }
 
 TEST(Validate, Indices) {
@@ -175,7 +162,6 @@ TEST(Validate, PinchedNodesAreCountedButAllowed) {
                        {node(3), node(4)},
                        {node(4), node(0)}}}};
   EXPECT_TRUE(validate(mesh).empty());
-  EXPECT_EQ(pinched_nodes(mesh, MeshTopology(mesh)), 1);
 }
 
 TEST(ValidateGeometry, FollowsItsOutline) {
@@ -279,17 +265,20 @@ TEST(ValidateGeometry, AnInterfaceHasCellsOnBothSides) {
 TEST(BlockStatistics, CountsCellsAreaAndInterfaceEdges) {
   TwoBlocks two;
   const std::vector<std::string> names{"below", "above"};
-  const auto sizes = block_statistics(two.mesh, two.blocks(), names);
+  const Communicator alone(MPI_COMM_SELF);
+  const auto sizes = block_statistics(alone, two.mesh, two.blocks(), names);
   ASSERT_EQ(sizes.size(), 2U);
   EXPECT_EQ(sizes[0].name, "below");
   EXPECT_EQ(sizes[0].cells, 2);
   EXPECT_EQ(sizes[1].cells, 4);
   EXPECT_EQ(sizes[1].area, 2);
-  InterfaceEdges edges = interface_edges(two.mesh, two.blocks(), MeshTopology(two.mesh));
-  EXPECT_EQ(edges.all, 2);
+  const HaloMesh halo(alone, two.mesh);
+  const std::int64_t between = edge_statistics(alone, two.mesh, halo, two.blocks()).between_blocks;
+  EXPECT_EQ(between, 2);
+  InterfaceEdges edges = interface_edges(alone, two.mesh, between);
   EXPECT_EQ(edges.unnamed, 0);
   two.mesh.boundaries.back().edges.pop_back();
-  edges = interface_edges(two.mesh, two.blocks(), MeshTopology(two.mesh));
+  edges = interface_edges(alone, two.mesh, between);
   EXPECT_EQ(edges.unnamed, 1);
 }
 

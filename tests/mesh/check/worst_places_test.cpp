@@ -2,10 +2,16 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
+#include <algorithm>
+#include <cstdint>
+
+#include "mesher/mesh/scatter_mesh.hpp"
+#include "tests/support/world.hpp"
 
 namespace quadloop {
 namespace {
+
+using test::world;
 
 // A unit square, beside it a triangle that is high and thin, above that a flat one.
 Mesh uneven() {
@@ -19,19 +25,26 @@ Mesh uneven() {
 }
 
 TEST(WorstPlaces, AreThoseOfTheWorstCells) {
-  const Mesh mesh = uneven();
-  const WorstPlaces places = worst_places(mesh, MeshTopology(mesh), {});
+  const Mesh whole = uneven();
+  const WorstPlaces places = worst_places(world(), scatter_mesh(world(), whole, own_order(whole)), {});
   EXPECT_EQ(places.smallest_angle, (Point{1, 0}));     // 11.3 degrees, as at (1, 1), which comes later
   EXPECT_EQ(places.largest_angle, (Point{1.1, 0.5}));  // 157.4
   EXPECT_NEAR(places.worst_quality.x, 3.1 / 3, 1e-15);
   EXPECT_NEAR(places.worst_quality.y, 0.5, 1e-15);
-  EXPECT_EQ(places.largest_area_ratio, (Point{1, 0.5}));  // 1 by 0.05
 }
 
-TEST(WorstPlaces, OfACellWithoutAreaIsItsEdge) {
-  Mesh mesh = uneven();
-  mesh.points[5] = {1.1, 0.5};
-  EXPECT_EQ(worst_places(mesh, MeshTopology(mesh), {}).largest_area_ratio, (Point{1.05, 0.75}));
+TEST(WorstPlaces, OfEqualCellsTheFirst) {
+  Mesh whole;  // squares side by side
+  for (std::int32_t i = 0; i <= 12; ++i)
+    whole.points.insert(whole.points.end(), {{1.0 * i, 0}, {1.0 * i, 1}});
+  for (std::int32_t i = 0; i < 12; ++i)
+    whole.quads.push_back({NodeId{2 * i}, NodeId{2 * i + 2}, NodeId{2 * i + 3}, NodeId{2 * i + 1}});
+  whole.owned_nodes = size32(whole.points);
+  std::ranges::reverse(whole.quads);
+  const WorstPlaces places = worst_places(world(), scatter_mesh(world(), whole, own_order(whole)), {});
+  EXPECT_EQ(places.smallest_angle, (Point{11, 0}));
+  EXPECT_EQ(places.largest_angle, (Point{11, 0}));
+  EXPECT_EQ(places.worst_quality, (Point{11.5, 0.5}));
 }
 
 }  // namespace
