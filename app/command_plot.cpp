@@ -1,5 +1,3 @@
-#include <mpi.h>
-
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -107,23 +105,22 @@ PlotTask task_of(const PlotArguments& arguments) {
   return task;
 }
 
-std::string picture_of_mesh(const PlotArguments& arguments, const PlotTask& task) {
-  io::LoadedMesh loaded = io::read_mesh(arguments.input);
+/// The bytes on the root, none elsewhere. *Collective.*
+std::string picture_of_mesh(const Communicator& comm, const PlotArguments& arguments, const PlotTask& task) {
+  io::LoadedMesh loaded = io::read_mesh(comm, arguments.input);
   io::list_inner_curves(loaded);
   loaded.mesh.blocks = {std::move(loaded.block_names), std::move(loaded.triangle_to_block),
                         std::move(loaded.quad_to_block)};
-  const Communicator alone(MPI_COMM_SELF);
   try {
-    return quadloop::picture(alone, std::move(loaded.mesh), loaded.solution.value_or(Field{}), task.options,
+    return quadloop::picture(comm, std::move(loaded.mesh), loaded.solution.value_or(Field{}), task.options,
                              task.format);
   } catch (const InputError& error) {
     throw InputError(arguments.input + ": " + error.what());
   }
 }
 
-std::string picture(const PlotArguments& arguments, const PlotTask& task) {
+std::string chart(const PlotArguments& arguments, const PlotTask& task) {
   const io::PlotOptions& options = task.options;
-  if (task.subject == Subject::mesh) return picture_of_mesh(arguments, task);
   if (task.subject == Subject::history)
     return io::draw_chart(chart_of_history(arguments.input), options.size, options.centimetres, task.format);
   const io::PlotTable walls = wall_table_for(arguments.input);
@@ -132,16 +129,18 @@ std::string picture(const PlotArguments& arguments, const PlotTask& task) {
                         task.format);
 }
 
-/// Only the root rank reads and plots; an error there is thrown on all ranks.
+/// A mesh is read by all ranks, a table by the root. *Collective.*
 void run_plot(const CommandContext& context, const PlotArguments& arguments) {
   const Communicator& comm = context.comm;
   PlotTask task;
   comm.together([&] { task = task_of(arguments); });
   io::OutputSet outputs(comm);
   const io::StagedFile staged = outputs.stage(arguments.output);
+  std::string bytes;
+  if (task.subject == Subject::mesh) bytes = picture_of_mesh(comm, arguments, task);
   comm.together([&] {
     if (!comm.is_root()) return;
-    const std::string bytes = picture(arguments, task);
+    if (task.subject != Subject::mesh) bytes = chart(arguments, task);
     log::detail("writing " + arguments.output);
     io::OutputFile file(staged);
     file.write(bytes);

@@ -8,7 +8,6 @@
 #include "flow/postprocess/run_constants.hpp"
 #include "io/files/output_file.hpp"
 #include "io/plot/mesh_plot.hpp"
-#include "mesher/mesh/scatter_mesh.hpp"
 #include "mesher/mesh/variable_names.hpp"
 #include "quadloop/quadloop.hpp"
 #include "quadloop/require_input.hpp"
@@ -33,19 +32,19 @@ void add_quantity(Field& solution, const std::string& name) {
   solution = flow::with_quantities(solution, {name}, stream);
 }
 
-/// The mesh and its blocks as the reader of a file gives them; `whole` is consumed.
-io::LoadedMesh as_loaded(Mesh whole) {
+/// The mesh and its blocks as the reader of a file gives them.
+io::LoadedMesh as_loaded(Mesh mesh) {
   io::LoadedMesh loaded;
-  MeshBlocks& blocks = whole.blocks;
+  MeshBlocks& blocks = mesh.blocks;
   if (blocks.of_triangles.empty() && blocks.of_quads.empty()) {
-    blocks.of_triangles.assign(whole.triangles.size(), 0);
-    blocks.of_quads.assign(whole.quads.size(), 0);
+    blocks.of_triangles.assign(mesh.triangles.size(), 0);
+    blocks.of_quads.assign(mesh.quads.size(), 0);
   }
   loaded.blocks = std::max(1, size32(blocks.names));
   loaded.block_names = std::move(blocks.names);
   loaded.triangle_to_block = std::move(blocks.of_triangles);
   loaded.quad_to_block = std::move(blocks.of_quads);
-  loaded.mesh = std::move(whole);
+  loaded.mesh = std::move(mesh);
   return loaded;
 }
 
@@ -54,20 +53,10 @@ io::LoadedMesh as_loaded(Mesh whole) {
 std::string picture(const Communicator& comm, Mesh mesh, Field solution, const PlotOptions& options,
                     PlotFormat format) {
   require_rows(comm, mesh, solution);
-  if (comm.size() > 1) {
-    Mesh whole = gather_whole(comm, mesh);
-    solution = gather_field(comm, solution, mesh, comm.is_root() ? own_order(whole) : MeshOrder{});
-    mesh = std::move(whole);
-  }
-  std::string bytes;
-  comm.together([&] {
-    if (!comm.is_root()) return;
-    io::LoadedMesh loaded = as_loaded(std::move(mesh));
-    add_quantity(solution, options.field);
-    if (!solution.empty()) loaded.solution = std::move(solution);
-    bytes = io::draw_mesh(loaded, options, format);
-  });
-  return bytes;
+  io::LoadedMesh loaded = as_loaded(std::move(mesh));
+  add_quantity(solution, options.field);
+  if (!solution.empty()) loaded.solution = std::move(solution);
+  return io::draw_mesh(comm, loaded, options, format);
 }
 
 void plot(const Communicator& comm, Mesh mesh, const std::string& path, Field solution,

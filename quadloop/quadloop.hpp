@@ -331,7 +331,7 @@ std::vector<std::string> extrude(const Communicator& comm, Mesh mesh, const std:
                                  ExtrusionAxis axis = ExtrusionAxis::z);
 
 /// Returns a picture of a mesh, or of the variable options.field of the solution, as the bytes of a file: on
-/// the root rank, where the mesh is gathered; none on other ranks. "mach" and "pressure_coefficient" are
+/// the root rank, which gets the cells one after another; none on other ranks. "mach" and "pressure_coefficient" are
 /// computed from a flow that lacks them. Throws InputError for a variable that does not exist, or a window
 /// without cells.
 std::string picture(const Communicator& comm, Mesh mesh, Field solution = {}, const PlotOptions& options = {},

@@ -5,10 +5,13 @@
 #include <cmath>
 #include <span>
 #include <tuple>
+#include <utility>
 
 #include "io/plot/contour_lines.hpp"
 #include "io/plot/streamlines.hpp"
 #include "io/plot/value_raster.hpp"
+#include "mesher/base/parallel/exchange.hpp"
+#include "mesher/mesh/node_exchange.hpp"
 
 namespace quadloop::io {
 
@@ -22,15 +25,27 @@ constexpr std::size_t width_classes = 48;
 
 /// An edge between two nodes, the lower first, with the thickness in pixels of an adjacent cell.
 struct Edge {
-  NodeId a, b;
+  GlobalNodeId a, b;
+  Point from, to;
   double thickness = 0;
 };
 
-std::vector<Point> corners_of(const Mesh& mesh, std::size_t cell) {
-  std::vector<Point> corners;
-  for (const NodeId node : cell_nodes(mesh, cell)) corners.push_back(mesh.point(node));
-  return corners;
-}
+/// Draws what is added to a path, a batch at a time.
+class Batches {
+ public:
+  /// Calls `draw` for each full batch, and for the last one.
+  template <class Draw>
+  void count_one(const Draw& draw) {
+    if (++count_ % batch == 0) draw();
+  }
+  template <class Draw>
+  void finish(const Draw& draw) const {
+    if (count_ % batch != 0) draw();
+  }
+
+ private:
+  std::size_t count_ = 0;
+};
 
 double area_of(const Mesh& mesh, std::span<const NodeId> nodes) {
   double twice = 0;
@@ -45,10 +60,28 @@ std::vector<Edge> edges_of(const Mesh& mesh, std::size_t cell, double scale) {
   const double area = area_of(mesh, nodes);
   std::vector<Edge> edges;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const auto [a, b] = std::minmax(nodes[i], nodes[(i + 1) % nodes.size()]);
+    NodeId a = nodes[i], b = nodes[(i + 1) % nodes.size()];
+    if (mesh.global(b) < mesh.global(a)) std::swap(a, b);
     const double along = length(mesh.point(b) - mesh.point(a));
-    edges.push_back({a, b, along > 0 ? scale * area / along : 0});
+    edges.push_back({mesh.global(a), mesh.global(b), mesh.point(a), mesh.point(b),
+                     along > 0 ? scale * area / along : 0});
   }
+  return edges;
+}
+
+/// Returns each edge once, by the thicker of its cells, on the rank that owns its first node, in the order of
+/// the nodes. *Collective.*
+std::vector<Edge> each_once(const Communicator& comm, const Mesh& mesh, const std::vector<Edge>& own) {
+  const NodeOwners owners(comm, mesh.first_node);
+  std::vector<int> ranks;
+  for (const Edge& edge : own) ranks.push_back(owners.rank_of(edge.a));
+  std::vector<Edge> edges = Exchange(comm, ranks).deliver(own);
+  std::sort(edges.begin(), edges.end(), [](const Edge& p, const Edge& q) {
+    return std::tuple(p.a, p.b, q.thickness) < std::tuple(q.a, q.b, p.thickness);
+  });
+  edges.erase(std::unique(edges.begin(), edges.end(),
+                          [](const Edge& p, const Edge& q) { return p.a == q.a && p.b == q.b; }),
+              edges.end());
   return edges;
 }
 
@@ -71,12 +104,16 @@ PlacedEdges::PlacedEdges(const Mesh& mesh) {
 }
 
 void MeshPainter::fill_all(const std::vector<std::size_t>& cells, Colour colour) {
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    std::vector<Point> corners = view_.visible_part(corners_of(mesh_, cells[i]));
+  Batches batches;
+  const auto draw = [&] { canvas_->fill_crisp(colour); };
+  stream_.for_each(cells, {}, [&](const ShownCell& cell) {
+    std::vector<Point> corners =
+        view_.visible_part({cell.corners.begin(), cell.corners.begin() + cell.width});
     for (Point& p : corners) p = view_.pixel(p);
-    canvas_.add_polygon(corners);
-    if ((i + 1) % batch == 0 || i + 1 == cells.size()) canvas_.fill_crisp(colour);
-  }
+    canvas_->add_polygon(corners);
+    batches.count_one(draw);
+  });
+  batches.finish(draw);
 }
 
 void MeshPainter::fill(const std::vector<std::size_t>& cells, const CellPaint& paint) {
@@ -84,7 +121,7 @@ void MeshPainter::fill(const std::vector<std::size_t>& cells, const CellPaint& p
   for (std::size_t i = 0; i < cells.size(); ++i) {
     double thickness = smallest;
     if (!paint.bar) {
-      for (const Edge& edge : edges_of(mesh_, cells[i], view_.scale()))
+      for (const Edge& edge : edges_of(stream_.mesh(), cells[i], view_.scale()))
         thickness = std::min(thickness, edge.thickness);
     }
     (thickness < smallest ? thin : wide)[paint.colours[i]].push_back(cells[i]);
@@ -96,8 +133,7 @@ void MeshPainter::fill(const std::vector<std::size_t>& cells, const CellPaint& p
 }
 
 /// `to_left`: pixels by which the line is moved to its left.
-void MeshPainter::add_line(NodeId a, NodeId b, double to_left) {
-  Point from = mesh_.point(a), to = mesh_.point(b);
+void MeshPainter::add_line(Point from, Point to, double to_left) {
   if (to_left != 0) {
     const Point along = to - from,
                 shift = to_left / (view_.scale() * length(along)) * Point{-along.y, along.x};
@@ -105,22 +141,17 @@ void MeshPainter::add_line(NodeId a, NodeId b, double to_left) {
     to = to + shift;
   }
   if (const auto part = view_.visible_part(from, to))
-    canvas_.add_line(view_.pixel((*part)[0]), view_.pixel((*part)[1]));
+    canvas_->add_line(view_.pixel((*part)[0]), view_.pixel((*part)[1]));
 }
 
 void MeshPainter::stroke_edges(const std::vector<std::size_t>& cells, double strength) {
   std::vector<Edge> edges;
   for (const std::size_t cell : cells) {
-    for (const Edge& edge : edges_of(mesh_, cell, view_.scale())) {
+    for (const Edge& edge : edges_of(stream_.mesh(), cell, view_.scale())) {
       if (edge.thickness >= smallest) edges.push_back(edge);
     }
   }
-  std::sort(edges.begin(), edges.end(), [](const Edge& p, const Edge& q) {
-    return std::tuple(p.a, p.b, q.thickness) < std::tuple(q.a, q.b, p.thickness);
-  });
-  edges.erase(std::unique(edges.begin(), edges.end(),
-                          [](const Edge& p, const Edge& q) { return p.a == q.a && p.b == q.b; }),
-              edges.end());
+  edges = each_once(stream_.communicator(), stream_.mesh(), edges);
   std::vector<std::vector<std::size_t>> classes(width_classes);
   for (std::size_t i = 0; i < edges.size(); ++i) {
     const double eighths = 8 * std::log2(edges[i].thickness / smallest);
@@ -130,65 +161,81 @@ void MeshPainter::stroke_edges(const std::vector<std::size_t>& cells, double str
     const double thickness = smallest * std::exp2(0.125 * static_cast<double>(k));
     const double width = std::clamp(thickness / 16, 0.5, 1.1);
     const double opacity = strength * std::min(0.85, darkest * thickness / (2 * width));
-    for (std::size_t i = 0; i < classes[k].size(); ++i) {
-      add_line(edges[classes[k][i]].a, edges[classes[k][i]].b);
-      if ((i + 1) % batch == 0 || i + 1 == classes[k].size()) canvas_.stroke(edge_ink, opacity, width);
-    }
+    Batches batches;
+    const auto draw = [&] { canvas_->stroke(edge_ink, opacity, width); };
+    hand_to_root(
+        stream_.communicator(), classes[k].size(), [&](std::size_t i) { return edges[classes[k][i]]; },
+        [&](const Edge& edge) {
+          add_line(edge.from, edge.to);
+          batches.count_one(draw);
+        });
+    batches.finish(draw);
   }
 }
 
 void MeshPainter::stroke_boundary(const BoundaryEdges& boundary, Colour colour) {
+  const auto place = [&](NodeId node) { return boundaries_.point(node); };
   double along = 0;
-  for (const auto& [a, b] : boundary.edges) along += view_.scale() * length(mesh_.point(b) - mesh_.point(a));
+  for (const auto& [a, b] : boundary.edges) along += view_.scale() * length(place(b) - place(a));
   const double width = std::clamp(1.0 + along / (4.0 * size32(boundary.edges)), 1.7, 2.6);
-  for (std::size_t i = 0; i < boundary.edges.size(); ++i) {
-    const auto [a, b] = boundary.edges[i];
-    const bool has_other_side = boundary_edges_.has(mesh_.point(b), mesh_.point(a));
-    add_line(a, b, has_other_side ? 0.5 * width : 0);
-    if ((i + 1) % batch == 0 || i + 1 == boundary.edges.size()) canvas_.stroke(colour, 1, width);
+  Batches batches;
+  const auto draw = [&] { canvas_->stroke(colour, 1, width); };
+  for (const auto& [a, b] : boundary.edges) {
+    const bool has_other_side = boundary_edges_.has(place(b), place(a));
+    add_line(place(a), place(b), has_other_side ? 0.5 * width : 0);
+    batches.count_one(draw);
   }
+  batches.finish(draw);
 }
 
-ValueRaster FieldPainter::raster_of(const std::vector<double>& values) const {
-  ValueRaster raster(view_.frame(), resolution_);
+template <class Visit>
+void FieldPainter::for_each_piece(const std::vector<double>& values, const Visit& visit) const {
   std::vector<LinearPiece> pieces;
-  for (const std::size_t cell : cells_) {
+  stream_.for_each(cells_, values, [&](const ShownCell& cell) {
     pieces.clear();
-    append_pieces(mesh_, view_, cell, values, pieces);
-    for (const LinearPiece& piece : pieces) raster.add(piece);
-  }
+    append_pieces(view_, cell, pieces);
+    for (const LinearPiece& piece : pieces) visit(piece);
+  });
+}
+
+/// Returns the values at the pixels on the root, nothing elsewhere. *Collective.*
+std::optional<ValueRaster> FieldPainter::raster_of(const std::vector<double>& values) const {
+  std::optional<ValueRaster> raster;
+  if (stream_.communicator().is_root()) raster.emplace(view_.frame(), resolution_);
+  for_each_piece(values, [&](const LinearPiece& piece) { raster->add(piece); });
   return raster;
 }
 
 void FieldPainter::shade(const std::vector<double>& values, const ColourBar& bar) {
-  const ValueRaster raster = raster_of(values);
-  canvas_.paint(raster.box(), raster.image(bar));
+  const std::optional<ValueRaster> raster = raster_of(values);
+  if (raster) canvas_->paint(raster->box(), raster->image(bar));
 }
 
 void FieldPainter::stroke_contours(const std::vector<double>& values, const std::vector<double>& levels) {
+  Batches batches;
+  const auto draw = [&] { canvas_->stroke(line_ink, 1, 1); };
   std::vector<std::array<Point, 2>> lines;
-  std::vector<LinearPiece> pieces;
-  for (const std::size_t cell : cells_) {
-    pieces.clear();
-    append_pieces(mesh_, view_, cell, values, pieces);
-    for (const LinearPiece& piece : pieces) append_contours(piece, levels, lines);
-  }
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    if (const auto part = part_within(view_.frame(), lines[i][0], lines[i][1]))
-      canvas_.add_line((*part)[0], (*part)[1]);
-    if ((i + 1) % batch == 0 || i + 1 == lines.size()) canvas_.stroke(line_ink, 1, 1);
-  }
+  for_each_piece(values, [&](const LinearPiece& piece) {
+    lines.clear();
+    append_contours(piece, levels, lines);
+    for (const auto& [from, to] : lines) {
+      if (const auto part = part_within(view_.frame(), from, to)) canvas_->add_line((*part)[0], (*part)[1]);
+      batches.count_one(draw);
+    }
+  });
+  batches.finish(draw);
 }
 
 void FieldPainter::stroke_streamlines(const std::vector<double>& x_velocity,
                                       const std::vector<double>& y_velocity, int count) {
-  const std::vector<std::vector<Point>> lines =
-      streamlines(raster_of(x_velocity), raster_of(y_velocity), count);
-  for (const std::vector<Point>& line : lines) canvas_.add_polyline(line);
-  canvas_.stroke(line_ink, 1, 1);
+  const std::optional<ValueRaster> x_raster = raster_of(x_velocity), y_raster = raster_of(y_velocity);
+  if (!x_raster) return;
+  const std::vector<std::vector<Point>> lines = streamlines(*x_raster, *y_raster, count);
+  for (const std::vector<Point>& line : lines) canvas_->add_polyline(line);
+  canvas_->stroke(line_ink, 1, 1);
   for (const std::vector<Point>& line : lines) {
-    canvas_.add_polygon(arrow_on(line));
-    canvas_.fill(line_ink);
+    canvas_->add_polygon(arrow_on(line));
+    canvas_->fill(line_ink);
   }
 }
 

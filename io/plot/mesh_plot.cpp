@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -13,6 +14,8 @@
 #include "io/plot/mesh_painter.hpp"
 #include "io/plot/plot_view.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/mesh/box_over_ranks.hpp"
+#include "mesher/mesh/scatter_mesh.hpp"
 #include "mesher/mesh/variable_names.hpp"
 
 namespace quadloop::io {
@@ -21,7 +24,7 @@ namespace {
 
 constexpr std::size_t most_boundary_names = 12;
 
-Box window_of(const Mesh& mesh, const PlotOptions& options) {
+Box window_of(const Communicator& comm, const Mesh& mesh, const PlotOptions& options) {
   if (options.window) {
     const Box& w = *options.window;
     const bool usable =
@@ -29,22 +32,22 @@ Box window_of(const Mesh& mesh, const PlotOptions& options) {
     if (!usable) throw InputError("the window is empty; give it as X0,X1,Y0,Y1 with X0 < X1 and Y0 < Y1");
     return w;
   }
-  Box all;
-  for (const Point& p : mesh.points) all.include(p);
+  const Box all = box_over_ranks(comm, mesh.points);
   if (!(all.width() > 0 && all.height() > 0))
     throw InputError("the mesh covers no area; there is nothing to plot");
   const Point margin{0.01 * std::max(all.width(), all.height()), 0.01 * std::max(all.width(), all.height())};
   return {all.low - margin, all.high + margin};
 }
 
-std::vector<std::size_t> cells_in(const Mesh& mesh, const Box& window) {
+/// Returns this rank's cells in the window. *Collective.*
+std::vector<std::size_t> cells_in(const Communicator& comm, const Mesh& mesh, const Box& window) {
   std::vector<std::size_t> cells;
   for (std::size_t cell = 0; cell < cell_count(mesh); ++cell) {
     Box around;
     for (const NodeId node : cell_nodes(mesh, cell)) around.include(mesh.point(node));
     if (around.meets(window)) cells.push_back(cell);
   }
-  if (cells.empty()) throw InputError("no cell lies in the window; choose another one");
+  if (!comm.any(!cells.empty())) throw InputError("no cell lies in the window; choose another one");
   return cells;
 }
 
@@ -71,39 +74,33 @@ bool is_seen(const Mesh& mesh, const BoundaryEdges& boundary, const Box& window)
   });
 }
 
-/// Adds the boundaries within the window, unless there are too many.
-void add_boundary_names(const Mesh& mesh, const Box& window, std::vector<LegendEntry>& legend) {
-  std::vector<LegendEntry> names;
+/// Adds the boundaries within the window, unless there are too many. *Collective.*
+void add_boundary_names(const Communicator& comm, const Mesh& mesh, const Box& window,
+                        std::vector<LegendEntry>& legend) {
+  std::vector<std::size_t> own;
   for (std::size_t i = 0; i < mesh.boundaries.size(); ++i) {
-    if (is_seen(mesh, mesh.boundaries[i], window))
-      names.push_back({boundary_colour(i), mesh.boundaries[i].name, true});
+    if (is_seen(mesh, mesh.boundaries[i], window)) own.push_back(i);
+  }
+  std::vector<char> seen(mesh.boundaries.size(), 0);
+  for (const std::size_t i : comm.all_gather_values(std::span<const std::size_t>(own))) seen[i] = 1;
+  std::vector<LegendEntry> names;
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    if (seen[i] != 0) names.push_back({boundary_colour(i), mesh.boundaries[i].name, true});
   }
   if (names.size() <= most_boundary_names) legend.insert(legend.end(), names.begin(), names.end());
 }
 
-/// Averages the cells around each node.
-std::vector<double> at_nodes(const Mesh& mesh, const std::vector<double>& of_cells) {
-  std::vector<double> sums(mesh.points.size(), 0);
-  std::vector<int> counts(mesh.points.size(), 0);
-  for (std::size_t cell = 0; cell < of_cells.size(); ++cell) {
-    for (const NodeId node : cell_nodes(mesh, cell)) {
-      sums[node.value()] += of_cells[cell];
-      ++counts[node.value()];
-    }
-  }
-  for (std::size_t node = 0; node < sums.size(); ++node) sums[node] /= std::max(counts[node], 1);
-  return sums;
-}
-
-/// Returns a velocity component by node, from the nodal variables, else from those in cells.
-std::vector<double> velocity_part(const LoadedMesh& loaded, const char* name) {
+/// Returns a velocity component by node, from the nodal variables, else from those in cells. *Collective.*
+std::vector<double> velocity_part(const Communicator& comm, const LoadedMesh& loaded, const char* name) {
   const Field& solution = *loaded.solution;
   const CellValues& cells = solution.cells;
   if (variables_like(solution.names, name).empty() && !variables_like(cells.names, name).empty())
-    return at_nodes(loaded.mesh, cells.column(variable(cells.names, name, "streamlines need a velocity")));
+    return means_at_nodes(comm, loaded.mesh,
+                          cells.column(variable(cells.names, name, "streamlines need a velocity")));
   std::vector<std::string> all = solution.names;
   if (all.empty()) all = cells.names;  // for the message
-  return solution.column(variable(all, name, "streamlines need a velocity"));
+  return with_ghost_values(comm, loaded.mesh,
+                           solution.column(variable(all, name, "streamlines need a velocity")));
 }
 
 /// The fields shown in a picture, by node.
@@ -111,35 +108,48 @@ struct ShownFields {
   std::vector<double> field, x_velocity, y_velocity;
 };
 
-ShownFields shown_fields(const LoadedMesh& loaded, const PlotOptions& options) {
+ShownFields shown_fields(const Communicator& comm, const LoadedMesh& loaded, const PlotOptions& options) {
   ShownFields shown;
-  if (!options.field.empty()) shown.field = field_values(loaded, options.field).of_nodes;
+  if (!options.field.empty()) shown.field = field_values(comm, loaded, options.field).of_nodes;
   if (options.streamlines > 0) {
     if (!loaded.solution) throw InputError("streamlines need a velocity, but the file holds no solution");
-    shown.x_velocity = velocity_part(loaded, "x_velocity");
-    shown.y_velocity = velocity_part(loaded, "y_velocity");
+    shown.x_velocity = velocity_part(comm, loaded, "x_velocity");
+    shown.y_velocity = velocity_part(comm, loaded, "y_velocity");
   }
   return shown;
 }
 
 class Picture {
  public:
-  Picture(const LoadedMesh& loaded, const PlotOptions& options, PlotFormat format)
-      : loaded_{loaded}, options_{options}, format_{format}, sheet_{sheet_of(options.centimetres, format)} {}
+  Picture(const Communicator& comm, const LoadedMesh& loaded, const PlotOptions& options, PlotFormat format)
+      : comm_{comm}, loaded_{loaded}, options_{options}, format_{format}, sheet_{sheet_of(options.centimetres, format)} {}
 
+  /// *Collective.*
   std::string draw() const {
     const Mesh& mesh = loaded_.mesh;
     const bool has_bar = !options_.field.empty() || options_.colouring == PlotColouring::quality;
-    Box window = window_of(mesh, options_);
+    Box window = window_of(comm_, mesh, options_);
     if (sheet_.size) window = PlotView::filling(window, *sheet_.size, has_bar);
-    const std::vector<std::size_t> cells = cells_in(mesh, window);
-    CellPaint paint = paint_cells(loaded_, cells, options_);
-    const ShownFields shown = shown_fields(loaded_, options_);
-    add_boundary_names(mesh, window, paint.legend);
+    const std::vector<std::size_t> cells = cells_in(comm_, mesh, window);
+    CellPaint paint = paint_cells(comm_, loaded_, cells, options_);
+    const ShownFields shown = shown_fields(comm_, loaded_, options_);
+    add_boundary_names(comm_, mesh, window, paint.legend);
     const PlotView view(window, options_.size, paint.legend, has_bar, sheet_.size);
-    Canvas canvas(format_, view.width(), view.height(), sheet_.scale);
-    canvas.clip(view.frame());
-    draw_cells(cells, paint, shown, view, canvas);
+    std::optional<Canvas> canvas;
+    if (comm_.is_root()) {
+      canvas.emplace(format_, view.width(), view.height(), sheet_.scale);
+      canvas->clip(view.frame());
+    }
+    draw_cells(cells, paint, shown, view, canvas ? &*canvas : nullptr);
+    std::string bytes;
+    comm_.together([&] {
+      if (canvas) bytes = finished(*canvas, view, paint);
+    });
+    return bytes;
+  }
+
+ private:
+  static std::string finished(Canvas& canvas, const PlotView& view, const CellPaint& paint) {
     canvas.unclip();
     view.draw_axes(canvas, "x", "y");
     view.draw_legend(canvas, paint.legend);
@@ -147,12 +157,14 @@ class Picture {
     return canvas.finish();
   }
 
- private:
+  /// `canvas` is that of the root. *Collective.*
   void draw_cells(const std::vector<std::size_t>& cells, const CellPaint& paint, const ShownFields& shown,
-                  const PlotView& view, Canvas& canvas) const {
+                  const PlotView& view, Canvas* canvas) const {
     const bool has_field = !options_.field.empty();
-    MeshPainter painter(loaded_.mesh, view, canvas);
-    FieldPainter fields(loaded_.mesh, cells, view, canvas, sheet_.resolution);
+    const CellStream stream(comm_, loaded_.mesh);
+    const Mesh boundaries = gather_boundaries(comm_, loaded_.mesh);
+    MeshPainter painter(stream, boundaries, view, canvas);
+    FieldPainter fields(stream, cells, view, canvas, sheet_.resolution);
     if (has_field && options_.smooth) {
       fields.shade(shown.field, *paint.bar);
     } else {
@@ -163,10 +175,11 @@ class Picture {
       fields.stroke_contours(shown.field, contour_levels(paint.bar->low, paint.bar->high, options_.contours));
     if (options_.streamlines > 0)
       fields.stroke_streamlines(shown.x_velocity, shown.y_velocity, options_.streamlines);
-    for (std::size_t i = 0; i < loaded_.mesh.boundaries.size(); ++i)
-      painter.stroke_boundary(loaded_.mesh.boundaries[i], boundary_colour(i));
+    for (std::size_t i = 0; canvas != nullptr && i < boundaries.boundaries.size(); ++i)
+      painter.stroke_boundary(boundaries.boundaries[i], boundary_colour(i));
   }
 
+  const Communicator& comm_;
   const LoadedMesh& loaded_;
   const PlotOptions& options_;
   PlotFormat format_;
@@ -175,8 +188,9 @@ class Picture {
 
 }  // namespace
 
-std::string draw_mesh(const LoadedMesh& loaded, const PlotOptions& options, PlotFormat format) {
-  return Picture(loaded, options, format).draw();
+std::string draw_mesh(const Communicator& comm, const LoadedMesh& loaded, const PlotOptions& options,
+                      PlotFormat format) {
+  return Picture(comm, loaded, options, format).draw();
 }
 
 }  // namespace quadloop::io

@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <span>
-
-#include "io/plot/cell_paint.hpp"
 
 namespace quadloop::io {
 
@@ -84,15 +81,10 @@ std::uint32_t packed(Colour colour) {
 
 }  // namespace
 
-void append_pieces(const Mesh& mesh, const PlotView& view, std::size_t cell,
-                   const std::vector<double>& values, std::vector<LinearPiece>& pieces) {
-  const std::span<const NodeId> nodes = cell_nodes(mesh, cell);
-  Quadrilateral quad{};
-  for (std::size_t k = 0; k < nodes.size(); ++k) {
-    quad.corners[k] = view.pixel(mesh.point(nodes[k]));
-    quad.values[k] = values[nodes[k].value()];
-  }
-  if (nodes.size() == 3) {
+void append_pieces(const PlotView& view, const ShownCell& cell, std::vector<LinearPiece>& pieces) {
+  Quadrilateral quad{cell.corners, cell.values};
+  for (Point& corner : quad.corners) corner = view.pixel(corner);
+  if (cell.width == 3) {
     pieces.push_back({{quad.corners[0], quad.corners[1], quad.corners[2]},
                       {quad.values[0], quad.values[1], quad.values[2]}});
   } else {

@@ -6,9 +6,9 @@
 
 #include "io/plot/canvas/colour_map.hpp"
 #include "io/plot/canvas/plot_canvas.hpp"
+#include "io/plot/cell_stream.hpp"
 #include "io/plot/plot_view.hpp"
 #include "mesher/geometry/point.hpp"
-#include "mesher/mesh/mesh.hpp"
 
 namespace quadloop::io {
 
@@ -19,9 +19,8 @@ struct LinearPiece {
 };
 
 /// Appends the cell as pieces on the sheet: a triangle is one; a quadrilateral, whose value is bilinear, is
-/// divided as finely as its size on the sheet requires. `values` are those of the mesh's nodes.
-void append_pieces(const Mesh& mesh, const PlotView& view, std::size_t cell,
-                   const std::vector<double>& values, std::vector<LinearPiece>& pieces);
+/// divided as finely as its size on the sheet requires.
+void append_pieces(const PlotView& view, const ShownCell& cell, std::vector<LinearPiece>& pieces);
 
 /// Values at the pixels of a part of a sheet.
 class ValueRaster {
