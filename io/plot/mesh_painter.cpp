@@ -23,10 +23,10 @@ constexpr double smallest = 1.3;     // pixels between two edges that are still 
 constexpr double darkest = 0.42;     // maximum fraction of ink in an area with edges, or with shading instead
 constexpr std::size_t width_classes = 48;
 
-/// An edge between two nodes, the lower first, with the thickness in pixels of an adjacent cell.
+/// An edge between two nodes, that with the lower global number first, with the thickness in pixels of an
+/// adjacent cell.
 struct Edge {
-  GlobalNodeId a, b;
-  Point from, to;
+  NodeId a, b;
   double thickness = 0;
 };
 
@@ -63,27 +63,72 @@ std::vector<Edge> edges_of(const Mesh& mesh, std::size_t cell, double scale) {
     NodeId a = nodes[i], b = nodes[(i + 1) % nodes.size()];
     if (mesh.global(b) < mesh.global(a)) std::swap(a, b);
     const double along = length(mesh.point(b) - mesh.point(a));
-    edges.push_back({mesh.global(a), mesh.global(b), mesh.point(a), mesh.point(b),
-                     along > 0 ? scale * area / along : 0});
+    edges.push_back({a, b, along > 0 ? scale * area / along : 0});
   }
   return edges;
 }
 
-/// Returns each edge once, by the thicker of its cells, on the rank that owns its first node, in the order of
-/// the nodes. *Collective.*
-std::vector<Edge> each_once(const Communicator& comm, const Mesh& mesh, const std::vector<Edge>& own) {
-  const NodeOwners owners(comm, mesh.first_node);
-  std::vector<int> ranks;
-  for (const Edge& edge : own) ranks.push_back(owners.rank_of(edge.a));
-  std::vector<Edge> edges = Exchange(comm, ranks).deliver(own);
-  std::sort(edges.begin(), edges.end(), [](const Edge& p, const Edge& q) {
-    return std::tuple(p.a, p.b, q.thickness) < std::tuple(q.a, q.b, p.thickness);
-  });
-  edges.erase(std::unique(edges.begin(), edges.end(),
-                          [](const Edge& p, const Edge& q) { return p.a == q.a && p.b == q.b; }),
-              edges.end());
-  return edges;
-}
+/// The edges that are drawn, each once, by the thicker of its cells, on the rank that owns its first node, in
+/// the order of the nodes.
+class DrawnEdges {
+ public:
+  /// `own` are the edges of this rank's cells. *Collective.*
+  DrawnEdges(const Communicator& comm, const Mesh& mesh, std::vector<Edge> own)
+      : mesh_{mesh}, edges_{std::move(own)} {
+    make_unique();
+    take_from_others(comm);
+    make_unique();
+  }
+
+  const std::vector<Edge>& edges() const { return edges_; }
+  std::array<Point, 2> ends(const Edge& edge) const { return {mesh_.point(edge.a), end_of(edge.b).place}; }
+
+ private:
+  struct End {
+    GlobalNodeId node;
+    Point place;
+  };
+  struct TravellingEdge {
+    GlobalNodeId first;
+    End second;
+    double thickness;
+  };
+
+  /// Nodes that this rank does not know are numbered after those of the mesh.
+  End end_of(NodeId node) const {
+    const std::int32_t known = size32(mesh_.points);
+    return node.value() < known ? End{mesh_.global(node), mesh_.point(node)} : others_[node.value() - known];
+  }
+
+  void make_unique() {
+    const auto nodes = [&](const Edge& edge) { return std::pair(mesh_.global(edge.a), end_of(edge.b).node); };
+    std::sort(edges_.begin(), edges_.end(), [&](const Edge& p, const Edge& q) {
+      return std::tuple(nodes(p), q.thickness) < std::tuple(nodes(q), p.thickness);
+    });
+    const auto again = std::ranges::unique(edges_, {}, nodes);
+    edges_.erase(again.begin(), again.end());
+  }
+
+  /// *Collective.*
+  void take_from_others(const Communicator& comm) {
+    const NodeOwners owners(comm, mesh_.first_node);
+    Outbox<TravellingEdge> out;
+    std::erase_if(edges_, [&](const Edge& edge) {
+      if (mesh_.owns(edge.a)) return false;
+      const GlobalNodeId first = mesh_.global(edge.a);
+      out.add(owners.rank_of(first), {first, end_of(edge.b), edge.thickness});
+      return true;
+    });
+    for (const TravellingEdge& edge : out.deliver(comm)) {
+      edges_.push_back({owners.local(edge.first), NodeId{size32(mesh_.points) + size32(others_)}, edge.thickness});
+      others_.push_back(edge.second);
+    }
+  }
+
+  const Mesh& mesh_;
+  std::vector<Edge> edges_;
+  std::vector<End> others_;
+};
 
 /// Returns a small triangle at the middle of a line that shows its direction.
 std::array<Point, 3> arrow_on(const std::vector<Point>& line) {
@@ -151,10 +196,10 @@ void MeshPainter::stroke_edges(const std::vector<std::size_t>& cells, double str
       if (edge.thickness >= smallest) edges.push_back(edge);
     }
   }
-  edges = each_once(stream_.communicator(), stream_.mesh(), edges);
-  std::vector<std::vector<std::size_t>> classes(width_classes);
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    const double eighths = 8 * std::log2(edges[i].thickness / smallest);
+  const DrawnEdges drawn(stream_.communicator(), stream_.mesh(), std::move(edges));
+  std::vector<std::vector<std::int32_t>> classes(width_classes);
+  for (std::int32_t i = 0; i < size32(drawn.edges()); ++i) {
+    const double eighths = 8 * std::log2(drawn.edges()[i].thickness / smallest);
     classes[static_cast<std::size_t>(std::clamp(eighths, 0.0, width_classes - 1.0))].push_back(i);
   }
   for (std::size_t k = 0; k < classes.size(); ++k) {
@@ -164,9 +209,10 @@ void MeshPainter::stroke_edges(const std::vector<std::size_t>& cells, double str
     Batches batches;
     const auto draw = [&] { canvas_->stroke(edge_ink, opacity, width); };
     hand_to_root(
-        stream_.communicator(), classes[k].size(), [&](std::size_t i) { return edges[classes[k][i]]; },
-        [&](const Edge& edge) {
-          add_line(edge.from, edge.to);
+        stream_.communicator(), classes[k].size(),
+        [&](std::size_t i) { return drawn.ends(drawn.edges()[classes[k][i]]); },
+        [&](const std::array<Point, 2>& ends) {
+          add_line(ends[0], ends[1]);
           batches.count_one(draw);
         });
     batches.finish(draw);
