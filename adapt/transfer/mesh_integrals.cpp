@@ -27,13 +27,13 @@ class CellTerms {
     for (std::vector<double>& of_column : terms_) of_column.reserve(mesh.cell_count());
   }
 
-  void add(const std::array<NodeId, 3>& triangle) { add(parts_of(mesh_, centre_, triangle)); }
+  void add(const std::array<NodeId, 3>& triangle) { add(parts_of(mesh_.points, centre_, triangle)); }
   void add(const std::array<NodeId, 4>& quad) {
     const std::array<Point, 4> p = corners_of(mesh_, quad);
     if (is_rectangle(p))
       add_rectangle(quad, cross(p[1] - p[0], p[2] - p[0]) / 6, farthest_corner(centre_, p) % 2);
     else
-      add(parts_of(mesh_, centre_, quad));
+      add(parts_of(mesh_.points, centre_, quad));
   }
 
   std::span<const std::vector<double>> terms() const { return terms_; }

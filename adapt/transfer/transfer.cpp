@@ -27,12 +27,11 @@ namespace quadloop::adapt {
 
 namespace {
 
-/// The new mesh with its nodes at these positions. *Collective.*
-Mesh moved_to(const Communicator& comm, const Mesh& mesh, const std::vector<Point>& places) {
-  Mesh moved = mesh;
-  std::ranges::copy(places, moved.points.begin());
-  NodeExchange(comm, NodeOwners(comm, mesh.first_node), mesh.owned_nodes, mesh.ghosts).update(moved.points);
-  return moved;
+/// Positions of owned nodes, followed by those of ghosts. *Collective.*
+std::vector<Point> with_ghosts(const Communicator& comm, const Mesh& mesh, std::vector<Point> places) {
+  places.resize(mesh.points.size());
+  NodeExchange(comm, NodeOwners(comm, mesh.first_node), mesh.owned_nodes, mesh.ghosts).update(places);
+  return places;
 }
 
 /// Cells outside the old mesh get the values of the cell at the nearest boundary edge. *Collective.*
@@ -61,13 +60,12 @@ void take_from_boundary_cells(const Communicator& comm, const Mesh& old_mesh, co
 }
 
 /// *Collective.*
-CellValues transferred_cells(const Communicator& comm, const CurvePartition& shares,
-                             const TransferSide& old_side, const CellValues& old_cells,
-                             const TransferSide& new_side, TransferReport& report) {
-  TransferredCells result = transfer_cells(comm, shares, old_side, old_cells, new_side);
+CellValues transferred_cells(const Communicator& comm, const MeshPair& meshes, const CellValues& old_cells,
+                             TransferReport& report) {
+  TransferredCells result = transfer_cells(comm, meshes, old_cells);
   report.cells_outside = comm.sum(std::ssize(result.outside));
   if (report.cells_outside > 0)
-    take_from_boundary_cells(comm, old_side.mesh, old_cells, new_side.mesh, *old_side.baffles, result);
+    take_from_boundary_cells(comm, meshes.old_mesh, old_cells, meshes.new_mesh, *meshes.baffles, result);
   return {old_cells.names, std::move(result.values)};
 }
 
@@ -110,13 +108,15 @@ Transferred transfer_in_block(const Communicator& comm, const Mesh& old_mesh, co
   transferred.field = {old.names, std::move(rows.values), old.constants};
   const bool conserves = kind == TransferKind::conservative && old.width() > 0;
   if (conserves || old.cells.width() > 0) {
-    const TransferSide old_side{old_mesh, cell_triangles(comm, old_mesh, centre), &baffles};
-    const Mesh moved = moved_to(comm, new_mesh, at);
-    const TransferSide new_side{moved, cell_triangles(comm, moved, centre_of_nodes(comm, new_mesh))};
-    if (conserves)
-      conserve_at_nodes(comm, shares, old_side, old, new_side, new_mesh, transferred.field.values);
-    if (old.cells.width() > 0)
-      transferred.field.cells = transferred_cells(comm, shares, old_side, old.cells, new_side, report);
+    const std::vector<Point> places = with_ghosts(comm, new_mesh, at);
+    const Point new_centre = centre_of_nodes(comm, new_mesh);
+    const MeshPair meshes{
+        shares,     old_mesh,
+        new_mesh,   centre,
+        new_centre, places,
+        &baffles,   find_equal_cells(comm, old_mesh, new_mesh, places, new_centre == centre)};
+    if (conserves) conserve_at_nodes(comm, meshes, old, transferred.field.values);
+    if (old.cells.width() > 0) transferred.field.cells = transferred_cells(comm, meshes, old.cells, report);
   }
   report_drift(comm, new_mesh, transferred.field, integrals_of(comm, old_mesh, centre, old), report);
   report.conserved_from = conserves ? 0 : old.width();

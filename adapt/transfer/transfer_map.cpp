@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <string>
-#include <tuple>
-#include <type_traits>
 #include <utility>
 
 #include "adapt/transfer/column_places.hpp"
+#include "adapt/transfer/equal_cells.hpp"
 #include "adapt/transfer/linear_rows.hpp"
 #include "adapt/transfer/locate/cell_triangles.hpp"
 #include "adapt/transfer/transfer_by.hpp"
 #include "mesher/base/parallel/exchange.hpp"
-#include "mesher/base/parallel/partners.hpp"
 #include "mesher/mesh/cells/cell_owners.hpp"
 #include "mesher/mesh/field.hpp"
 
@@ -56,49 +54,6 @@ Field stencils_between(const Communicator& comm, const Mesh& old_mesh, const Mes
   return transfer_by_block(comm, old_mesh, stencils_of(old_mesh), new_mesh, in_block).field;
 }
 
-using CellKey = PairKey<5>;
-enum Side : std::uint64_t { of_old, of_new };
-
-/// A cell by its nodes, whose numbers are those of the old mesh. Its partner is the same cell of the other
-/// mesh.
-template <std::size_t corners>
-CellKey cell_key(Side side, std::array<std::int64_t, corners> nodes) {
-  std::ranges::sort(nodes);
-  CellKey key{};
-  key.own[0] = side;
-  key.partner[0] = side == of_old ? of_new : of_old;
-  for (std::size_t k = 0; k < 4; ++k)
-    key.own[k + 1] = key.partner[k + 1] = static_cast<std::uint64_t>(k < corners ? nodes[k] : -1);
-  return key;
-}
-
-/// Calls `visit(nodes)` for triangles, then quads, with the numbers of their nodes.
-template <class NumberOf, class Visit>
-void for_each_cell(const Mesh& mesh, const NumberOf& number_of, const Visit& visit) {
-  const auto numbered = [&](const auto& cell) {
-    std::array<std::int64_t, std::tuple_size_v<std::decay_t<decltype(cell)>>> numbers{};
-    std::ranges::transform(cell, numbers.begin(), number_of);
-    visit(numbers);
-  };
-  std::ranges::for_each(mesh.triangles, numbered);
-  std::ranges::for_each(mesh.quads, numbered);
-}
-
-/// The global numbers of a rank's cells.
-struct CellRange {
-  std::int64_t triangles, first_triangle, first_quad;
-
-  std::int64_t number(std::int64_t local) const {
-    return local < triangles ? first_triangle + local : first_quad + local - triangles;
-  }
-};
-
-std::vector<CellRange> cell_ranges(const Communicator& comm, const Mesh& mesh) {
-  const CellOwners cells(comm, mesh);
-  const std::int64_t triangles = std::ssize(mesh.triangles);
-  return comm.all_gather(CellRange{triangles, cells.number(0), cells.number(triangles)});
-}
-
 }  // namespace
 
 TransferMap::TransferMap(const Communicator& comm, const Mesh& old_mesh, const Mesh& new_mesh)
@@ -127,30 +82,14 @@ void TransferMap::find_same_nodes(const Mesh& old_mesh, const Mesh& new_mesh) {
 }
 
 void TransferMap::find_same_cells(const Communicator& comm, const Mesh& old_mesh, const Mesh& new_mesh) {
-  std::vector<CellKey> keys;
-  for_each_cell(
-      old_mesh, [&](NodeId node) { return old_mesh.global(node).value(); },
-      [&](const auto& nodes) { keys.push_back(cell_key(of_old, nodes)); });
-  std::vector<GlobalNodeId> same = same_;
-  same.resize(new_mesh.points.size());
-  NodeExchange(comm, NodeOwners(comm, new_mesh.first_node), new_mesh.owned_nodes, new_mesh.ghosts)
-      .update(same);
-  std::vector<std::int64_t> asking;  // cells without new nodes
-  const std::size_t of_old_mesh = keys.size();
-  for_each_cell(
-      new_mesh, [&](NodeId node) { return same[static_cast<std::size_t>(node.value())].value(); },
-      [&](const auto& nodes) {
-        if (std::ranges::min(nodes) >= 0) {
-          asking.push_back(std::ssize(same_cells_));
-          keys.push_back(cell_key(of_new, nodes));
-        }
-        same_cells_.push_back(-1);
-      });
-  const std::vector<CellRange> ranges = cell_ranges(comm, old_mesh);
-  const std::vector<Partner> partners = find_partners(comm, std::span<const CellKey>(keys));
-  for (std::size_t i = 0; i < asking.size(); ++i) {
-    const Partner& old_cell = partners[of_old_mesh + i];
-    if (old_cell.found()) same_cells_[asking[i]] = ranges[old_cell.rank].number(old_cell.item);
+  const CellOwners owners(comm, old_mesh);
+  const EqualCells equal = find_equal_cells(comm, old_mesh, new_mesh, new_mesh.points);
+  auto number = equal.numbers.begin();
+  for (const std::int32_t old : equal.old_cell) {
+    if (old == EqualCells::elsewhere)
+      same_cells_.push_back(*number++);
+    else
+      same_cells_.push_back(old == EqualCells::none ? -1 : owners.number(old));
   }
 }
 

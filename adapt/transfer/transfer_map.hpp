@@ -30,7 +30,7 @@ class TransferMap {
   /// For each owned node the old node at the same position, whose value it gets; not valid: a new node.
   const std::vector<GlobalNodeId>& same() const { return same_; }
   /// For each cell of this rank, triangles, then quads, the global number (CellOwners) of the old cell with
-  /// the same nodes; -1: a new cell.
+  /// the same corners (find_equal_cells()); -1: a new cell.
   const std::vector<std::int64_t>& same_cells() const { return same_cells_; }
 
   /// From rows of `width` values at the owned nodes of the old mesh those at nodes(): `most` rows for each

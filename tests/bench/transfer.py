@@ -62,7 +62,7 @@ def main():
         add_field(f"{first}.mesh")
         for ranks in args.ranks:
             for kind in ("linear", "conservative"):
-                rows.append(row(ranks, f"remesh, {kind}", quadloop(args.quadloop, ranks, "remesh", [*settings, *ADAPT, f'adapt.transfer="{kind}"'],
+                rows.append(row(ranks, f"remesh, {kind}", quadloop(args.quadloop, ranks, "remesh", [*settings, *ADAPT, "adapt.refine=0.05", f'adapt.transfer="{kind}"'],
                                                                     "--tree", f"{first}.tree.h5", "--solution", f"{first}.mesh", "-o", again)))
             rows.append(row(ranks, "from scratch", quadloop(args.quadloop, ranks, "mesh", settings, "--tree", f"{again}.tree.h5", "-o", Path(name) / "scratch")))
     tell("\n".join([f"{len(NAMES)} variables at nodes.", "", "| ranks | run | nodes | most MiB on a rank | bytes a node | s of transfer |",

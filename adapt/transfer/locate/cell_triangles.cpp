@@ -10,8 +10,18 @@ namespace quadloop::adapt {
 
 namespace {
 
-int turn_of(const Mesh& mesh, const std::array<NodeId, 3>& nodes) {
-  return orientation(mesh.point(nodes[0]), mesh.point(nodes[1]), mesh.point(nodes[2]));
+using Points = std::span<const Point>;  ///< by node
+
+template <std::size_t width>
+std::array<Point, width> corners_at(Points points, const std::array<NodeId, width>& nodes) {
+  std::array<Point, width> corners;
+  for (std::size_t k = 0; k < width; ++k) corners[k] = points[nodes[k].value()];
+  return corners;
+}
+
+int turn_of(Points points, const std::array<NodeId, 3>& nodes) {
+  const auto [a, b, c] = corners_at(points, nodes);
+  return orientation(a, b, c);
 }
 
 /// Splits along the diagonal from corner `first` to the opposite one.
@@ -20,8 +30,8 @@ std::array<std::array<NodeId, 3>, 2> halves(const std::array<NodeId, 4>& quad, s
   return {{{at(0), at(1), at(2)}, {at(2), at(3), at(0)}}};
 }
 
-bool are_counter_clockwise(const Mesh& mesh, const std::array<std::array<NodeId, 3>, 2>& triangles) {
-  return turn_of(mesh, triangles[0]) > 0 && turn_of(mesh, triangles[1]) > 0;
+bool are_counter_clockwise(Points points, const std::array<std::array<NodeId, 3>, 2>& triangles) {
+  return turn_of(points, triangles[0]) > 0 && turn_of(points, triangles[1]) > 0;
 }
 
 /// The corner of the highest tie_rank().
@@ -55,19 +65,19 @@ struct Split {
 };
 
 /// The halves of a quad, and whether they are as they should be.
-Split split_of(const Mesh& mesh, Point centre, const std::array<NodeId, 4>& quad) {
-  const std::array<Point, 4> corners = corners_of(mesh, quad);
+Split split_of(Points points, Point centre, const std::array<NodeId, 4>& quad) {
+  const std::array<Point, 4> corners = corners_at(points, quad);
   if (is_rectangle(corners)) return {halves(quad, farthest_corner(centre, corners))};
   const std::size_t highest = highest_corner(centre, corners);
   const auto first = halves(quad, highest);
-  if (are_counter_clockwise(mesh, first)) return {first};
+  if (are_counter_clockwise(points, first)) return {first};
   const auto second = halves(quad, highest + 1);
-  if (are_counter_clockwise(mesh, second)) return {second};
+  if (are_counter_clockwise(points, second)) return {second};
   return {first, false};
 }
 
-void append(const Mesh& mesh, std::array<NodeId, 3> nodes, std::int8_t half, TrianglesOfCell& parts) {
-  const int turn = turn_of(mesh, nodes);
+void append(Points points, std::array<NodeId, 3> nodes, std::int8_t half, TrianglesOfCell& parts) {
+  const int turn = turn_of(points, nodes);
   if (turn == 0) return;
   if (turn < 0) std::swap(nodes[1], nodes[2]);
   parts.half[parts.count] = half;
@@ -88,7 +98,7 @@ void append_all(const Communicator& comm, const Mesh& mesh, Point centre,
                 const ForEachWanted& for_each_wanted, std::vector<CellTriangle>& triangles) {
   const auto append_of = [&](const auto& cells, std::int64_t first) {
     for_each_wanted(cells, [&](std::size_t cell) {
-      const TrianglesOfCell parts = parts_of(mesh, centre, cells[cell]);
+      const TrianglesOfCell parts = parts_of(mesh.points, centre, cells[cell]);
       const std::int64_t number = first + static_cast<std::int64_t>(cell);
       for (std::size_t k = 0; k < parts.count; ++k)
         triangles.push_back({parts.nodes[k], 2 * number + parts.half[k]});
@@ -105,18 +115,18 @@ Point centre_of_nodes(const Communicator& comm, const Mesh& mesh) {
   return box_over_ranks(comm, mesh.points).centre();
 }
 
-TrianglesOfCell parts_of(const Mesh& mesh, Point, const std::array<NodeId, 3>& triangle) {
+TrianglesOfCell parts_of(Points points, Point, const std::array<NodeId, 3>& triangle) {
   TrianglesOfCell parts;
-  append(mesh, triangle, 0, parts);
+  append(points, triangle, 0, parts);
   return parts;
 }
 
-TrianglesOfCell parts_of(const Mesh& mesh, Point centre, const std::array<NodeId, 4>& quad) {
-  const auto [halves, are_counter_clockwise] = split_of(mesh, centre, quad);
+TrianglesOfCell parts_of(Points points, Point centre, const std::array<NodeId, 4>& quad) {
+  const auto [halves, are_counter_clockwise] = split_of(points, centre, quad);
   if (are_counter_clockwise) return {halves, {0, 1}, 2};
   TrianglesOfCell parts;
-  append(mesh, halves[0], 0, parts);
-  append(mesh, halves[1], 1, parts);
+  append(points, halves[0], 0, parts);
+  append(points, halves[1], 1, parts);
   return parts;
 }
 
@@ -127,6 +137,20 @@ std::vector<CellTriangle> cell_triangles(const Communicator& comm, const Mesh& m
     for (std::size_t cell = 0; cell < cells.size(); ++cell) visit(cell);
   };
   append_all(comm, mesh, centre, every, triangles);
+  return triangles;
+}
+
+std::vector<CellTriangle> cell_triangles(const Communicator& comm, const Mesh& mesh, Point centre,
+                                         std::span<const char> flags) {
+  std::vector<CellTriangle> triangles;
+  std::size_t before = 0;  // cells of the kinds before
+  const auto flagged = [&](const auto& cells, const auto& visit) {
+    for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+      if (flags[before + cell] != 0) visit(cell);
+    }
+    before += cells.size();
+  };
+  append_all(comm, mesh, centre, flagged, triangles);
   return triangles;
 }
 

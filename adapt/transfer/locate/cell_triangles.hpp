@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "adapt/transfer/locate/point_cells.hpp"
@@ -46,11 +47,14 @@ struct TrianglesOfCell {
   std::array<std::int8_t, 2> half{};  ///< first or second half, for each
   std::size_t count = 0;
 };
-TrianglesOfCell parts_of(const Mesh& mesh, Point centre, const std::array<NodeId, 3>& triangle);
-TrianglesOfCell parts_of(const Mesh& mesh, Point centre, const std::array<NodeId, 4>& quad);
+TrianglesOfCell parts_of(std::span<const Point> points, Point centre, const std::array<NodeId, 3>& triangle);
+TrianglesOfCell parts_of(std::span<const Point> points, Point centre, const std::array<NodeId, 4>& quad);
 
-/// All local cells as triangles, or those whose boxes meet the squares of some points. *Collective.*
+/// Local cells as triangles: all of them; those that are flagged (triangles, then quads); or those whose
+/// boxes meet the squares of some points. *Collective.*
 std::vector<CellTriangle> cell_triangles(const Communicator& comm, const Mesh& mesh, Point centre);
+std::vector<CellTriangle> cell_triangles(const Communicator& comm, const Mesh& mesh, Point centre,
+                                         std::span<const char> flags);
 std::vector<CellTriangle> cell_triangles(const Communicator& comm, const Mesh& mesh, Point centre,
                                          const PointCells& points);
 

@@ -1,13 +1,12 @@
 #include "adapt/transfer/overlap/overlap_integrals.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <tuple>
 
-#include "adapt/transfer/overlap/triangle_overlap.hpp"
 #include "mesher/base/parallel/exchange.hpp"
-#include "mesher/geometry/box_tree.hpp"
 
 namespace quadloop::adapt {
 
@@ -86,7 +85,16 @@ struct PartHeader {
   double area = 0;
 };
 
-struct Parts {
+/// The box without its border: most triangles that meet a triangle's box in a grid only touch it.
+Box without_border(const Box& box) {
+  constexpr double far = std::numeric_limits<double>::infinity();
+  return {{std::nextafter(box.low.x, far), std::nextafter(box.low.y, far)},
+          {std::nextafter(box.high.x, -far), std::nextafter(box.high.y, -far)}};
+}
+
+}  // namespace
+
+struct OldTriangles::Parts {
   std::vector<PartHeader> headers;
   std::vector<CoveredValue> values;
   std::vector<int> ranks;
@@ -98,126 +106,112 @@ struct Parts {
   }
 };
 
-/// The old triangles that meet this rank's part of the plane.
-class OldPiece {
- public:
-  /// *Collective.*
-  OldPiece(const Communicator& comm, const CurvePartition& shares, const BrokenField& field,
-           const BafflePlaces* baffles)
-      : rank_{comm.rank()}, shares_{shares}, baffles_{baffles} {
-    const ToPartition to_partition(comm, shares, field.triangles);
-    field_.width = field.width;
-    field_.triangles = to_partition.deliver(field.triangles);
-    field_.numbers = to_partition.deliver(field.numbers);
-    field_.at_corners = to_partition.deliver(field.at_corners, 3 * field.width);
-    std::vector<Box> boxes;
-    for (const Triangle& triangle : field_.triangles) boxes.push_back(box_of_triangle(triangle));
-    tree_ = BoxTree(boxes);
+OldTriangles::OldTriangles(const Communicator& comm, const CurvePartition& shares, const BrokenField& field,
+                           const BafflePlaces* baffles)
+    : comm_{comm}, shares_{shares}, baffles_{baffles} {
+  const ToPartition to_partition(comm, shares, field.triangles);
+  field_.width = field.width;
+  field_.triangles = to_partition.deliver(field.triangles);
+  field_.numbers = to_partition.deliver(field.numbers);
+  field_.at_corners = to_partition.deliver(field.at_corners, 3 * field.width);
+  tree_ = BoxTree(size32(field_.triangles),
+                  [&](std::int32_t old) { return box_of_triangle(field_.triangles[old]); });
+}
+
+/// Adds the contributions to a rank's new triangle within this rank's part of the plane. Complete integrals
+/// over own triangles are stored.
+void OldTriangles::cut(const Triangle& triangle, std::int64_t item, int rank, OverlapIntegrals& own,
+                       Parts& parts) {
+  const Box box = box_of_triangle(triangle);
+  if (!(box.low == last_.low && box.high == last_.high)) look_up(box);
+  const bool all_here = meeting_.size() == 1;
+  Sum sum(field_.width);
+  for (const std::int32_t old : candidates_) {
+    if (!all_here && !is_mine(box, box_of_triangle(field_.triangles[old]))) continue;
+    const TriangleOverlap overlap = overlap_of(triangle, field_.triangles[old]);
+    if (!(overlap.area > 0)) continue;
+    if (baffles_ != nullptr && baffles_->across(triangle[0] + overlap.centroid)) continue;
+    fill(old, triangle, overlap, std::min(area_of(triangle), area_of(field_.triangles[old])));
+    if (all_here)
+      sum.add(overlap.area, row_);
+    else
+      parts.add({item, field_.numbers[old], overlap.area}, row_, rank);
   }
+  if (!(sum.area > 0)) return;
+  if (rank == comm_.rank())
+    own.set(item, sum.area, sum.values);
+  else
+    parts.add({item, 0, sum.area}, sum.values, rank);
+}
 
-  /// Adds the contributions to a new triangle within this rank's part of the plane.
-  void cut(const Triangle& triangle, std::int64_t item, int rank, Parts& parts) {
-    const Box box = box_of_triangle(triangle);
-    shares_.ranks_meeting(box, meeting_);
-    const bool all_here = meeting_.size() == 1;
-    Sum sum(field_.width);
-    for (const std::int32_t old : meeting(box)) {
-      if (!is_mine(box, box_of_triangle(field_.triangles[old]))) continue;
-      const TriangleOverlap overlap = overlap_of(triangle, field_.triangles[old]);
-      if (!(overlap.area > 0)) continue;
-      if (baffles_ != nullptr && baffles_->across(triangle[0] + overlap.centroid)) continue;
-      fill(old, triangle, overlap, std::min(area_of(triangle), area_of(field_.triangles[old])));
-      if (all_here)
-        sum.add(overlap.area, row_);
-      else
-        parts.add({item, field_.numbers[old], overlap.area}, row_, rank);
-    }
-    if (sum.area > 0) parts.add({item, 0, sum.area}, sum.values, rank);
+/// Finds the ranks whose parts the box meets, and the old triangles that it meets, in the order of their
+/// numbers. Kept, as the halves of a quadrilateral have the same box.
+void OldTriangles::look_up(const Box& box) {
+  last_ = box;
+  shares_.ranks_meeting(box, meeting_);
+  candidates_.clear();
+  tree_.for_each_meeting(without_border(box), [&](std::int32_t old) { candidates_.push_back(old); });
+  std::ranges::sort(candidates_, {}, [&](std::int32_t old) { return field_.numbers[old]; });
+}
+
+bool OldTriangles::is_mine(const Box& a, const Box& b) const {
+  return shares_.rank_of({std::max(a.low.x, b.low.x), std::max(a.low.y, b.low.y)}) == comm_.rank();
+}
+
+/// Writes the old triangle's integrals over the overlap to row_.
+void OldTriangles::fill(std::size_t old, const Triangle& cut, const TriangleOverlap& overlap,
+                        double smaller_area) {
+  const auto& [a, b, c] = field_.triangles[old];
+  const Point first = b - a, second = c - a, off = overlap.centroid + (cut[0] - a);
+  const double twice_area = cross(first, second);
+  const bool bounds = overlap.area > sliver * smaller_area;
+  row_.assign(field_.width, Sum::nothing);
+  for (std::size_t k = 0; k < field_.width; ++k) {
+    const double at_a = field_.row(old, 0)[k], at_b = field_.row(old, 1)[k], at_c = field_.row(old, 2)[k];
+    const double d_first = at_b - at_a, d_second = at_c - at_a;
+    const Point gradient{(d_first * second.y - d_second * first.y) / twice_area,
+                         (d_second * first.x - d_first * second.x) / twice_area};
+    const auto [low, high] = std::minmax({at_a, at_b, at_c});
+    const double share_b = cross(off, second) / twice_area, share_c = cross(first, off) / twice_area;
+    const double value = std::clamp(at_a + share_b * d_first + share_c * d_second, low, high);
+    row_[k] = {overlap.area * value, overlap.area * gradient, bounds ? low : Sum::none,
+               bounds ? high : -Sum::none};
   }
+}
 
- private:
-  /// In the order of their numbers.
-  const std::vector<std::int32_t>& meeting(const Box& box) {
-    candidates_.clear();
-    tree_.for_each_meeting(box, [&](std::int32_t old) { candidates_.push_back(old); });
-    std::ranges::sort(candidates_, {}, [&](std::int32_t old) { return field_.numbers[old]; });
-    return candidates_;
-  }
-
-  bool is_mine(const Box& a, const Box& b) const {
-    return shares_.rank_of({std::max(a.low.x, b.low.x), std::max(a.low.y, b.low.y)}) == rank_;
-  }
-
-  /// Writes the old triangle's integrals over the overlap to row_.
-  void fill(std::size_t old, const Triangle& cut, const TriangleOverlap& overlap, double smaller_area) {
-    const auto& [a, b, c] = field_.triangles[old];
-    const Point first = b - a, second = c - a, off = overlap.centroid + (cut[0] - a);
-    const double twice_area = cross(first, second);
-    const bool bounds = overlap.area > sliver * smaller_area;
-    row_.assign(field_.width, Sum::nothing);
-    for (std::size_t k = 0; k < field_.width; ++k) {
-      const double at_a = field_.row(old, 0)[k], at_b = field_.row(old, 1)[k], at_c = field_.row(old, 2)[k];
-      const double d_first = at_b - at_a, d_second = at_c - at_a;
-      const Point gradient{(d_first * second.y - d_second * first.y) / twice_area,
-                           (d_second * first.x - d_first * second.x) / twice_area};
-      const auto [low, high] = std::minmax({at_a, at_b, at_c});
-      const double share_b = cross(off, second) / twice_area, share_c = cross(first, off) / twice_area;
-      const double value = std::clamp(at_a + share_b * d_first + share_c * d_second, low, high);
-      row_[k] = {overlap.area * value, overlap.area * gradient, bounds ? low : Sum::none,
-                 bounds ? high : -Sum::none};
-    }
-  }
-
-  int rank_;
-  const CurvePartition& shares_;
-  const BafflePlaces* baffles_;  ///< null: there are none
-  BrokenField field_;
-  BoxTree tree_;
-  std::vector<std::int32_t> candidates_;
-  std::vector<int> meeting_;
-  std::vector<CoveredValue> row_;
-};
-
-/// Sums the contributions to this rank's new triangles in the order of the old triangles' numbers.
-/// *Collective.*
-OverlapIntegrals add_up(const Communicator& comm, const Parts& parts, std::size_t width,
-                        std::size_t triangles) {
-  const Exchange exchange(comm, parts.ranks);
+/// Sums the contributions of other ranks in the order of the old triangles' numbers.
+void OldTriangles::add_up(const Parts& parts, OverlapIntegrals& integrals) const {
+  const std::size_t width = integrals.width;
+  const Exchange exchange(comm_, parts.ranks);
   const std::vector<PartHeader> headers = exchange.deliver(parts.headers);
   const std::vector<CoveredValue> values = exchange.deliver(parts.values, width);
   std::vector<std::size_t> order(headers.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::sort(order, {}, [&](std::size_t i) { return std::tuple(headers[i].item, headers[i].number); });
-  OverlapIntegrals integrals{width, std::vector<double>(triangles, 0),
-                             std::vector<CoveredValue>(triangles * width)};
   for (std::size_t i = 0; i < order.size();) {
     const std::int64_t item = headers[order[i]].item;
     Sum sum(width);
     for (; i < order.size() && headers[order[i]].item == item; ++i)
       sum.add(headers[order[i]].area, std::span(values).subspan(order[i] * width, width));
-    integrals.areas[item] = sum.area;
-    std::ranges::copy(sum.values, integrals.values.begin() + item * width);
+    integrals.set(item, sum.area, sum.values);
   }
-  return integrals;
 }
 
-}  // namespace
-
-OverlapIntegrals integrate_overlaps(const Communicator& comm, const CurvePartition& shares,
-                                    const BrokenField& old_field, std::span<const Triangle> new_triangles,
-                                    const BafflePlaces* baffles) {
-  OldPiece old_piece(comm, shares, old_field, baffles);
-  const ToPartition to_partition(comm, shares, new_triangles);
+OverlapIntegrals OldTriangles::integrate(std::span<const Triangle> new_triangles) {
+  const ToPartition to_partition(comm_, shares_, new_triangles);
   std::vector<std::int64_t> items(new_triangles.size());
   std::iota(items.begin(), items.end(), std::int64_t{0});
   const std::vector<Triangle> triangles = to_partition.deliver(new_triangles);
   items = to_partition.deliver(items);
+  OverlapIntegrals integrals{field_.width, std::vector<double>(new_triangles.size(), 0),
+                             std::vector<CoveredValue>(new_triangles.size() * field_.width)};
   Parts parts;
   for (const Exchange::Source& source : to_partition.sources()) {
     for (std::size_t i = source.begin; i < source.end; ++i)
-      old_piece.cut(triangles[i], items[i], source.rank, parts);
+      cut(triangles[i], items[i], source.rank, integrals, parts);
   }
-  return add_up(comm, parts, old_field.width, new_triangles.size());
+  add_up(parts, integrals);
+  return integrals;
 }
 
 }  // namespace quadloop::adapt

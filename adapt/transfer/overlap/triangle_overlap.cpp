@@ -27,14 +27,29 @@ double crossing_fraction(double height_from, double height_to) {
   return fall == 0 ? 0.5 : std::clamp(height_from / fall, 0.0, 1.0);
 }
 
+/// orientation(), without the exact test for the usual cases in which p is on the line.
+int side_of(Point a, Point b, Point p) {
+  const bool on_line = p == a || p == b || (p.x == a.x && p.x == b.x) || (p.y == a.y && p.y == b.y);
+  return on_line ? 0 : orientation(a, b, p);
+}
+
 /// The part to the left of the line from a to b.
 Polygon left_part(const Polygon& polygon, Point a, Point b) {
+  std::array<int, std::tuple_size_v<decltype(polygon.corners)>> sides{};
+  bool any_left = false, any_right = false;
+  for (std::size_t k = 0; k < polygon.count; ++k) {
+    sides[k] = side_of(a, b, polygon.corners[k]);
+    any_left |= sides[k] > 0;
+    any_right |= sides[k] < 0;
+  }
+  if (!any_left) return {};
+  if (!any_right) return polygon;
   Polygon left;
   for (std::size_t k = 0; k < polygon.count; ++k) {
-    const Point from = polygon.corners[k], to = polygon.corners[(k + 1) % polygon.count];
-    const int side_from = orientation(a, b, from), side_to = orientation(a, b, to);
-    if (side_from >= 0) left.add(from);
-    if (side_from * side_to >= 0) continue;
+    const std::size_t next = k + 1 < polygon.count ? k + 1 : 0;
+    const Point from = polygon.corners[k], to = polygon.corners[next];
+    if (sides[k] >= 0) left.add(from);
+    if (sides[k] * sides[next] >= 0) continue;
     const double height_from = cross(b - a, from - a), height_to = cross(b - a, to - a);
     left.add(from + crossing_fraction(height_from, height_to) * (to - from));
   }

@@ -11,6 +11,7 @@
 #include "adapt/transfer/overlap/triangle_overlap.hpp"
 #include "adapt/transfer/transfer.hpp"
 #include "mesher/mesh/cells/cells_round_nodes.hpp"
+#include "mesher/mesh/node_exchange.hpp"
 #include "tests/adapt/transfer/gathered.hpp"
 #include "tests/adapt/transfer/jittered_mesh.hpp"
 #include "tests/mesh/grid_mesh.hpp"
@@ -33,6 +34,7 @@ Whole jittered(const Grid& grid, std::uint64_t seed, Point by = {}) {
 }
 
 double linear(Point p) { return 1 + 2 * p.x - 3 * p.y; }
+double wavy(Point p) { return 2 + std::sin(7 * p.x) * std::cos(9 * p.y); }
 double step(Point p) { return p.x + 0.3 * p.y > 0.6 ? 1e5 : 1; }
 
 /// Two variables in the cells, one at the nodes: a function's and numbers without a pattern.
@@ -151,11 +153,53 @@ TEST(ConservativeTransfer, LinearFunctionsAreExactInside) {
 }
 
 TEST(ConservativeTransfer, OfTheSameMeshChangesNothing) {
-  const Mesh mesh = jittered({11, {2, 1}, true}, 5).part(world());
-  const Field field = field_with_cells(mesh, step);
-  const Transferred result = transfer(world(), mesh, field, mesh);
-  for (std::size_t i = 0; i < field.cells.values.size(); ++i)
-    EXPECT_NEAR(result.field.cells.values[i], field.cells.values[i], 1e-9) << i;
+  const Whole whole = jittered({11, {2, 1}, true}, 5);
+  Whole again = whole;
+  again.order = test::shuffled_order(again.mesh, 9);
+  const Mesh mesh = whole.part(world()), new_mesh = again.part(world());
+  const Field field = field_with_cells(mesh, step), expected = field_with_cells(new_mesh, step);
+  const Transferred result = transfer(world(), mesh, field, new_mesh, TransferKind::conservative);
+  EXPECT_EQ(result.field.values, expected.values);
+  EXPECT_EQ(result.field.cells.values, expected.cells.values);
+}
+
+/// Two nodes of a grid move: values change only where their cells do, and integrals are kept.
+TEST(ConservativeTransfer, WhereCellsStayValuesStay) {
+  const Communicator alone(MPI_COMM_SELF);
+  const Whole before = jittered({16, {1, 1}, true}, 6);
+  Whole after = before;
+  const std::array<Point, 2> moved{before.mesh.points[5 * 17 + 6] + Point{0.012, 0.004},
+                                   before.mesh.points[11 * 17 + 10] + Point{-0.01, 0.01}};
+  after.mesh.points[5 * 17 + 6] = moved[0];
+  after.mesh.points[11 * 17 + 10] = moved[1];
+  after.order = test::shuffled_order(after.mesh, 2);
+  const auto transferred = [&](const Communicator& comm) {
+    const Mesh old_mesh = before.part(comm);
+    return transfer(comm, old_mesh, field_with_cells(old_mesh, wavy), after.part(comm),
+                    TransferKind::conservative);
+  };
+  const Transferred result = transferred(world());
+  for (const double drift : result.report.relative_drift) EXPECT_NEAR(drift, 0, 1e-14);
+  const Mesh new_mesh = after.part(world());
+  const Field unchanged = field_with_cells(new_mesh, wavy);
+  NodeFlags near(new_mesh.points.size(), 0);
+  new_mesh.for_each_cell([&](const auto& nodes) {
+    if (std::ranges::any_of(nodes,
+                            [&](NodeId n) { return std::ranges::count(moved, new_mesh.point(n)) > 0; }))
+      flag_all(nodes, near);
+  });
+  const NodeOwners owners(world(), new_mesh.first_node);
+  std::vector<GlobalNodeId> flagged;
+  for_each_flagged(near, [&](NodeId node) { flagged.push_back(new_mesh.global(node)); });
+  flag_at_owners(world(), owners, flagged, near);
+  std::int64_t kept = 0;
+  for (const NodeId node : ids_below(NodeId{new_mesh.owned_nodes})) {
+    if (near[node] != 0) continue;
+    EXPECT_EQ(result.field.values[node.value()], unchanged.values[node.value()]);
+    ++kept;
+  }
+  EXPECT_GT(world().sum(kept), 250);
+  EXPECT_EQ(gathered(result.field.values), transferred(alone).field.values);
 }
 
 TEST(ConservativeTransfer, HasTheSameBitsOnAnyNumberOfRanks) {

@@ -34,7 +34,7 @@ Mesh with_points(const std::vector<Point>& points) {
 
 /// The two nodes that both halves have.
 std::array<std::int32_t, 2> diagonal_of(const Mesh& mesh, Point centre) {
-  const auto halves = parts_of(mesh, centre, quad).nodes;
+  const auto halves = parts_of(mesh.points, centre, quad).nodes;
   std::vector<std::int32_t> both;
   for (const NodeId node : halves[0]) {
     if (std::find(halves[1].begin(), halves[1].end(), node) != halves[1].end()) both.push_back(node.value());
@@ -81,7 +81,7 @@ TEST(SplitQuad, AvoidsADiagonalOutside) {
     points[dent] = 0.5 * (Point{1.5, 1.5} + points[(dent + 2) % 4]);
     const Mesh mesh = with_points(points);
     for (const Point centre : {Point{0, 0}, Point{3, 0}, Point{3, 3}, Point{0, 3}}) {
-      for (const auto& half : parts_of(mesh, centre, quad).nodes) {
+      for (const auto& half : parts_of(mesh.points, centre, quad).nodes) {
         EXPECT_GT(orientation(mesh.point(half[0]), mesh.point(half[1]), mesh.point(half[2])), 0);
       }
     }
