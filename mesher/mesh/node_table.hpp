@@ -29,12 +29,13 @@ class NodeTable {
   }
 
   /// Returns the local number. A node that is not yet on this rank is appended to the ghosts, with this
-  /// position.
+  /// position. Ghosts are few compared with the owned nodes, so that room is added in small steps.
   NodeId local(GlobalNodeId node, Point point) {
     const NodeId known = find(node);
     if (known.valid()) return known;
     const NodeId added{size32(points_)};
     local_of_.emplace(node, added);
+    if (points_.size() == points_.capacity()) points_.reserve(points_.size() + points_.size() / 16 + 64);
     points_.push_back(point);
     ghosts_.push_back(node);
     return added;

@@ -250,7 +250,6 @@ class EdgeSurvey {
         numbers_{cell_numbers(comm, mesh, halo)},
         blocks_{spread_blocks(comm, mesh, halo, blocks)},
         sets_{numbers_.size()} {
-    ratios_.reserve((3 * mesh.triangles.size() + 4 * mesh.quads.size()) / 2);
     CellPairs<CellAtEdge> pairs(halo, [](NodeId) { return true; });
     pairs.for_each(
         [&](const auto& nodes, std::int32_t number) {
@@ -278,21 +277,24 @@ class EdgeSurvey {
 
   /// *Collective.*
   AreaRatios ratios() {
-    const std::int64_t count = comm_.sum(std::ssize(ratios_));
+    const std::int64_t equal = comm_.sum(equal_), count = equal + comm_.sum(std::ssize(ratios_));
     if (count == 0) return {};
     LargestRatio largest;
     for (const LargestRatio& found : comm_.all_gather(largest_)) {
       if (found.is_before(largest)) largest = found;
     }
-    // the smallest value that 99 % do not exceed
-    return {largest.ratio, kth_smallest(comm_, ratios_, (count * 99 + 99) / 100), largest.place};
+    const std::int64_t rank = (count * 99 + 99) / 100;  // of the smallest value that 99 % do not exceed
+    return {largest.ratio, rank <= equal ? 1 : kth_smallest(comm_, ratios_, rank - equal), largest.place};
   }
 
  private:
   /// `from` has the lower global number.
   void add_pair(NodeId from, NodeId to, const CellAtEdge& cell, const CellAtEdge& other) {
     const double ratio = area_ratio(cell.area, other.area);
-    ratios_.push_back(ratio);
+    if (ratio == 1)
+      ++equal_;
+    else
+      ratios_.push_back(ratio);
     if (!blocks_.empty() && blocks_[cell.number] != blocks_[other.number]) ++between_blocks_;
     if (ratio < largest_.ratio) return;
     const std::int32_t side = cell.side(from, to);
@@ -315,7 +317,8 @@ class EdgeSurvey {
   std::vector<std::int64_t> numbers_;
   std::vector<std::int32_t> blocks_;
   CellSets sets_;
-  std::vector<double> ratios_;
+  std::int64_t equal_ = 0;      ///< edges between cells of one area
+  std::vector<double> ratios_;  ///< at the other edges
   LargestRatio largest_;
   std::int64_t between_blocks_ = 0;
   std::vector<OneSidedEdge> one_sided_;
