@@ -5,6 +5,7 @@
 #include <bit>
 #include <iterator>
 #include <utility>
+#include <vector>
 
 #include "mesher/geometry/blunt_corners.hpp"
 #include "smoother/level_transitions/square_lines.hpp"
@@ -79,17 +80,31 @@ bool take_back(const Communicator& comm, HaloMesh& mesh, const IdVector<NodeId, 
   return comm.any(!back.empty());
 }
 
-/// Returns the nodes at possibly non-Delaunay edges; empty if nothing has moved. *Collective.*
+struct NodeMove {
+  NodeId node;
+  Point by;
+};
+
+/// The moves of nodes that are not pinned.
 template <class Finder>
-NodeFlags move_lines(const Communicator& comm, HaloMesh& mesh, const Finder& finder, const NodeFlags& pinned,
+std::vector<NodeMove> moves_of(const Finder& finder, const NodeFlags& pinned) {
+  std::vector<NodeMove> moves;
+  finder.for_each_move([&](NodeId node, Point move) {
+    if (pinned.empty() || pinned[node] == 0) moves.push_back({node, move});
+  });
+  return moves;
+}
+
+/// Returns the nodes at possibly non-Delaunay edges; empty if nothing has moved. *Collective.*
+NodeFlags move_lines(const Communicator& comm, HaloMesh& mesh, const std::vector<NodeMove>& moves,
                      double limit) {
+  if (!comm.any(!moves.empty())) return {};
   const IdVector<NodeId, Point> before(mesh.points());
   Lines lines{NodeFlags(before.size(), 0), NodeFlags(before.size(), 0)};
-  finder.for_each_move([&](NodeId node, Point move) {
-    if (!pinned.empty() && pinned[node] != 0) return;
-    mesh.points()[node.value()] = before[node] + move;
+  for (const auto& [node, by] : moves) {
+    mesh.points()[node.value()] = before[node] + by;
     lines.moved[node] = mesh.point(node) != before[node] ? 1 : 0;
-  });
+  }
   if (!comm.any(std::ranges::find(lines.moved, 1) != lines.moved.end())) return {};
   share(mesh, lines.moved);
   while (take_back(comm, mesh, before, limit, lines)) {
@@ -101,12 +116,12 @@ NodeFlags move_lines(const Communicator& comm, HaloMesh& mesh, const Finder& fin
 }  // namespace
 
 bool move_square_lines(const Communicator& comm, HaloMesh& mesh, const NodeFlags& pinned, double limit) {
-  return !move_lines(comm, mesh, SquareLines(mesh), pinned, limit).empty();
+  return !move_lines(comm, mesh, moves_of(SquareLines(mesh), pinned), limit).empty();
 }
 
 NodeFlags move_triangle_lines(const Communicator& comm, HaloMesh& mesh, const NodeFlags& near,
                               const NodeFlags& pinned, double limit) {
-  return move_lines(comm, mesh, TriangleLines(mesh, near), pinned, limit);
+  return move_lines(comm, mesh, moves_of(TriangleLines(mesh, near), pinned), limit);
 }
 
 }  // namespace quadloop::smoother
