@@ -265,16 +265,25 @@ Field ReorderedMesh::field(const Field& old) const {
 }
 
 void ReorderedMesh::put_back(const Mesh& changed, Mesh& old) const {
+  put_cells_back(changed, old);
+  for (double Point::*coordinate : {&Point::x, &Point::y}) {  // one after the other, for less memory
+    std::vector<double> values;
+    values.reserve(changed.owned_nodes);
+    for (std::int32_t i = 0; i < changed.owned_nodes; ++i) values.push_back(changed.points[i].*coordinate);
+    values = nodes_.back(values);
+    for (std::size_t i = 0; i < values.size(); ++i) old.points[i].*coordinate = values[i];
+  }
+  NodeExchange(comm_, NodeOwners(comm_, old.first_node), old.owned_nodes, old.ghosts).update(old.points);
+}
+
+void ReorderedMesh::put_cells_back(const Mesh& changed, Mesh& old) const {
   NewNumbers numbers = old_nodes_;
   numbers.resize(changed.points.size());
   NodeExchange(comm_, NodeOwners(comm_, changed.first_node), changed.owned_nodes, changed.ghosts)
       .update(numbers);
-  const std::vector<Point> points = nodes_.back(std::span(changed.points).first(changed.owned_nodes));
-  std::ranges::copy(points, old.points.begin());
   NodeTable table(old);
   move_cells_back(triangles_, changed.triangles, numbers, table, old.triangles);
   move_cells_back(quads_, changed.quads, numbers, table, old.quads);
-  NodeExchange(comm_, NodeOwners(comm_, old.first_node), old.owned_nodes, old.ghosts).update(old.points);
 }
 
 Field ReorderedMesh::field_back(const Field& changed) const {

@@ -51,6 +51,8 @@ class ReorderedMesh {
   Field field_back(const Field& changed) const;
 
  private:
+  void put_cells_back(const Mesh& changed, Mesh& old) const;
+
   const Communicator& comm_;
   RowMove nodes_, triangles_, quads_;
   std::vector<std::int64_t> old_nodes_;  ///< numbers in the old order of the nodes in the new one
