@@ -13,6 +13,7 @@
 
 #include "io/formats.hpp"
 #include "io/model/distribute.hpp"
+#include "io/model/fixed_nodes.hpp"
 #include "io/model/orient_mesh3d.hpp"
 #include "io/model/repeated_rows.hpp"
 #include "io/parts/part_index.hpp"
@@ -24,8 +25,6 @@
 #include "mesher/base/suffix.hpp"
 #include "mesher/mesh/cells/edge_cells.hpp"
 #include "mesher/mesh/layers/layer_nodes.hpp"
-#include "mesher/mesh/node_exchange.hpp"
-#include "mesher/mesh/paired_nodes.hpp"
 
 namespace quadloop::io {
 
@@ -75,20 +74,6 @@ void finish_reading(FileMesh& mesh, const std::string& path) {
   if (const std::int64_t turned = orient_mesh3d(mesh); turned > 0)
     mesh.warnings.push_back(fmt::format("{}: {} inside out and reversed", path,
                                         turned == 1 ? "1 cell was" : fmt::format("{} cells were", turned)));
-}
-
-/// Removes the nodes of pairs from those on other periodic sides. *Collective.*
-void separate_pairs(const Communicator& comm, LoadedMesh& loaded) {
-  const Mesh& mesh = loaded.mesh;
-  if (mesh.pairs.empty() || !comm.any(!loaded.periodic_nodes.empty())) return;
-  NodeFlags of_pairs(mesh.points.size(), 0);
-  std::vector<GlobalNodeId> ghosts;
-  for (const NodeId node : nodes_on_sides(mesh)) {
-    of_pairs[node] = 1;
-    if (!mesh.owns(node)) ghosts.push_back(mesh.global(node));
-  }
-  flag_at_owners(comm, NodeOwners(comm, mesh.first_node), ghosts, of_pairs);
-  std::erase_if(loaded.periodic_nodes, [&](NodeId node) { return of_pairs[node] != 0; });
 }
 
 /// Data of a mesh that a format may not support.

@@ -9,6 +9,7 @@
 
 #include "mesher/base/error.hpp"
 #include "mesher/mesh/node_exchange.hpp"
+#include "mesher/mesh/paired_nodes.hpp"
 
 namespace quadloop::io {
 
@@ -135,6 +136,19 @@ std::vector<std::string> fix_nodes(const Communicator& comm, const LoadedMesh& l
   agree(comm, loaded.mesh, flags);
   flags.resize(flags.empty() ? 0 : loaded.mesh.owned_nodes);
   return notes;
+}
+
+void separate_pairs(const Communicator& comm, LoadedMesh& loaded) {
+  const Mesh& mesh = loaded.mesh;
+  if (mesh.pairs.empty() || !comm.any(!loaded.periodic_nodes.empty())) return;
+  NodeFlags of_pairs(mesh.points.size(), 0);
+  std::vector<GlobalNodeId> ghosts;
+  for (const NodeId node : nodes_on_sides(mesh)) {
+    of_pairs[node] = 1;
+    if (!mesh.owns(node)) ghosts.push_back(mesh.global(node));
+  }
+  flag_at_owners(comm, NodeOwners(comm, mesh.first_node), ghosts, of_pairs);
+  std::erase_if(loaded.periodic_nodes, [&](NodeId node) { return of_pairs[node] != 0; });
 }
 
 }  // namespace quadloop::io

@@ -17,4 +17,7 @@ std::vector<std::string> fix_nodes(const Communicator& comm, const LoadedMesh& l
                                    std::span<const std::string> names, const std::string& path,
                                    NodeFlags& flags);
 
+/// Removes the nodes on the sides of pairs from the nodes on other periodic sides. *Collective.*
+void separate_pairs(const Communicator& comm, LoadedMesh& loaded);
+
 }  // namespace quadloop::io
