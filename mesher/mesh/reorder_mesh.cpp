@@ -162,35 +162,58 @@ std::array<GlobalNodeId, width> numbered(const std::array<NodeId, width>& nodes,
   return result;
 }
 
-/// Moves cells to the new order, their first nodes at first, as fewer values are then in memory.
-/// *Collective.*
+/// Sets the nodes of a rank's cells: `column(k)` are the global numbers of the k-th nodes, so that not all
+/// are in memory at once, and `local` returns the number of a ghost. Ghosts are found in the order of the
+/// cells.
+template <std::size_t width, class Column, class Local>
+void set_cells(const Mesh& part, const Column& column, const Local& local,
+               std::vector<std::array<NodeId, width>>& cells) {
+  std::vector<GlobalNodeId> ghosts;  // the k-th is -k in the cells
+  for (std::size_t k = 0; k < width; ++k) {
+    const std::vector<std::int64_t> nodes = column(k);
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      const std::int64_t offset = nodes[i] - part.first_node;
+      const bool owned = 0 <= offset && offset < part.owned_nodes;
+      if (!owned) ghosts.push_back(GlobalNodeId{nodes[i]});
+      cells[i][k] = NodeId{owned ? static_cast<std::int32_t>(offset) : -size32(ghosts)};
+    }
+  }
+  if (ghosts.empty()) return;
+  for (auto& cell : cells) {
+    for (NodeId& node : cell) {
+      if (node.value() < 0) node = local(ghosts[-node.value() - 1]);
+    }
+  }
+}
+
+/// Moves cells to the new order. *Collective.*
 template <std::size_t width>
 void move_cells(const RowMove& move, const std::vector<std::array<NodeId, width>>& cells,
                 const NewNumbers& numbers, PartBuilder& builder, std::vector<std::array<NodeId, width>>& to) {
   to.resize(move.size());
-  std::vector<std::int64_t> nodes;
-  for (std::size_t k = 0; k < width; ++k) {
-    nodes.clear();
+  const auto column = [&](std::size_t k) {
+    std::vector<std::int64_t> nodes;
     nodes.reserve(move.leaving().size());
     for (const std::int32_t cell : move.leaving()) nodes.push_back(numbers[cells[cell][k].value()]);
-    nodes = move.forth_from(nodes);
-    for (std::size_t i = 0; i < to.size(); ++i) to[i][k] = builder.local(GlobalNodeId{nodes[i]});
-  }
+    return move.forth_from(nodes);
+  };
+  set_cells(
+      builder.part(), column, [&](GlobalNodeId node) { return builder.local(node); }, to);
 }
 
 /// Inverse of move_cells(). *Collective.*
 template <std::size_t width>
 void move_cells_back(const RowMove& move, const std::vector<std::array<NodeId, width>>& changed,
-                     const NewNumbers& numbers, NodeTable& table,
+                     const NewNumbers& numbers, Mesh& part, NodeTable& table,
                      std::vector<std::array<NodeId, width>>& old) {
-  std::vector<std::int64_t> nodes;
-  for (std::size_t k = 0; k < width; ++k) {
-    nodes.clear();
+  const auto column = [&](std::size_t k) {
+    std::vector<std::int64_t> nodes;
     nodes.reserve(changed.size());
     for (const auto& cell : changed) nodes.push_back(numbers[cell[k].value()]);
-    nodes = move.back(nodes);
-    for (std::size_t i = 0; i < old.size(); ++i) old[i][k] = table.local(GlobalNodeId{nodes[i]}, {});
-  }
+    return move.back(nodes);
+  };
+  set_cells(
+      part, column, [&](GlobalNodeId node) { return table.local(node, {}); }, old);
 }
 
 template <class T>
@@ -282,8 +305,8 @@ void ReorderedMesh::put_cells_back(const Mesh& changed, Mesh& old) const {
   NodeExchange(comm_, NodeOwners(comm_, changed.first_node), changed.owned_nodes, changed.ghosts)
       .update(numbers);
   NodeTable table(old);
-  move_cells_back(triangles_, changed.triangles, numbers, table, old.triangles);
-  move_cells_back(quads_, changed.quads, numbers, table, old.quads);
+  move_cells_back(triangles_, changed.triangles, numbers, old, table, old.triangles);
+  move_cells_back(quads_, changed.quads, numbers, old, table, old.quads);
 }
 
 Field ReorderedMesh::field_back(const Field& changed) const {

@@ -169,7 +169,8 @@ class RegionSearch {
       const std::int32_t number = cell++;
       if (!is_own(number)) return;
       const std::int32_t set = sets_.first_of(number);
-      if (part == nullptr || set != last) part = &parts_.emplace(set, RegionPart{numbers_[set]}).first->second;
+      if (part == nullptr || set != last)
+        part = &parts_.emplace(set, RegionPart{numbers_[set]}).first->second;
       last = set;
       if (part->cells++ > 0) return;
       part->first = numbers_[number];
@@ -210,7 +211,8 @@ class RegionSearch {
 std::vector<std::int64_t> cell_numbers(const Communicator& comm, const Mesh& mesh, const HaloMesh& halo) {
   const CellOwners owners(comm, mesh);
   std::vector<std::int64_t> own(mesh.cell_count());
-  for (std::size_t cell = 0; cell < own.size(); ++cell) own[cell] = owners.number(static_cast<std::int64_t>(cell));
+  for (std::size_t cell = 0; cell < own.size(); ++cell)
+    own[cell] = owners.number(static_cast<std::int64_t>(cell));
   return halo.spread(comm, own);
 }
 
