@@ -6,6 +6,7 @@
 
 #include "mesher/base/error.hpp"
 #include "mesher/base/log.hpp"
+#include "mesher/base/parallel/free_memory.hpp"
 #include "mesher/base/parallel/shared_stage.hpp"
 #include "mesher/build/assemble_mesh.hpp"
 #include "mesher/build/islands.hpp"
@@ -112,6 +113,7 @@ MeshResult build_mesh(const Communicator& comm, const Geometry& given, const Mes
 
   times.begin("mesh");
   sizes.forget();  // frees the size tree before the mesh is allocated
+  return_freed_memory();
   assemble_mesh(comm, geometry, sizes, graph, cut, has_triangles_alone(options.type), result);
   cut.drop_lists();
   report_losses(comm, geometry, result.mesh, options.may_vanish, result.report);

@@ -158,6 +158,7 @@ void HaloMesh::append_spread(const Communicator& comm, const SentOfKind& sent, s
 template <class T>
 std::vector<T> HaloMesh::spread(const Communicator& comm, const std::vector<T>& own) const {
   std::vector<T> all;
+  all.reserve(cell_count());
   const std::size_t triangles = mesh_->triangles.size();
   append_spread(comm, triangles_sent_, triangles_before_.size(), std::span(own).first(triangles), all);
   append_spread(comm, quads_sent_, quads_before_.size(), std::span(own).subspan(triangles), all);

@@ -1,5 +1,6 @@
 #include "mesher/base/parallel/free_memory.hpp"
 
+#include <malloc.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -93,6 +94,12 @@ double free_in_control_groups(const std::string& membership, const std::string& 
     }
   }
   return least;
+}
+
+void return_freed_memory() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
 }
 
 double free_memory_of_all(const Communicator& comm) {

@@ -16,6 +16,10 @@ inline constexpr const char* out_of_memory =
 /// divided among its ranks. Infinity if there is no information. *Collective.*
 double free_memory_of_all(const Communicator& comm);
 
+/// Returns freed memory of this process to the system, as far as whole pages of it are free. Without it, pages
+/// of arrays that are freed stay beside larger arrays which do not fit into their place.
+void return_freed_memory();
+
 /// Returns the free memory of the control groups, which are mounted below `root`; `membership` is the text of
 /// /proc/self/cgroup. Exposed for tests.
 double free_in_control_groups(const std::string& membership, const std::string& root);

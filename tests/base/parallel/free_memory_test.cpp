@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <fstream>
@@ -67,6 +68,30 @@ TEST(FreeMemory, TheOlderKindOfGroupsIsReadToo) {
 TEST(FreeMemory, WithoutGroupsThereIsNoLimit) {
   EXPECT_TRUE(std::isinf(free_in_control_groups("0::/\n", "/nowhere")));
 }
+
+/// Bytes of memory in use by this process.
+std::int64_t resident() {
+  std::ifstream file("/proc/self/statm");
+  std::int64_t all = 0, used = 0;
+  file >> all >> used;
+  return used * ::sysconf(_SC_PAGESIZE);
+}
+
+#ifndef __SANITIZE_ADDRESS__  // has its own allocation
+TEST(ReturnFreedMemory, FreedBlocksAreNoLongerInUse) {
+  constexpr std::size_t blocks = 50000, block = 1000;
+  std::vector<std::unique_ptr<char[]>> held(blocks);
+  for (auto& one : held) {
+    one = std::make_unique<char[]>(block);
+    std::fill_n(one.get(), block, 'x');
+  }
+  const auto last = std::make_unique<char[]>(block);  // lies behind them
+  const std::int64_t before = resident();
+  held.clear();
+  return_freed_memory();
+  EXPECT_LT(resident(), before - static_cast<std::int64_t>(blocks * block / 2));
+}
+#endif
 
 }  // namespace
 }  // namespace quadloop
