@@ -95,9 +95,8 @@ CheckReport examine(const Communicator& comm, const io::LoadedMesh& loaded, cons
                     bool with_geometry) {
   const Mesh& mesh = loaded.mesh;
   CheckReport report;
-  report.blocks =
-      block_statistics(comm, mesh, {loaded.blocks, loaded.triangle_to_block, loaded.quad_to_block},
-                       loaded.block_names);
+  report.blocks = block_statistics(
+      comm, mesh, {loaded.blocks, loaded.triangle_to_block, loaded.quad_to_block}, loaded.block_names);
   report.boundaries = edges_of(comm, mesh.boundaries);
   report.inner_lines = edges_of(comm, loaded.inner_curves);
   for (const PeriodicPair& pair : mesh.pairs) report.pairs.push_back(pair.from + " and " + pair.to);

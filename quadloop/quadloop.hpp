@@ -297,7 +297,8 @@ class Morph {
 };
 
 /// Returns one line per error, with its location; empty for a valid mesh. The lines are the same on every
-/// rank. Gathers the mesh on one rank.
+/// rank. The mesh is gathered on one rank only if it is not certainly valid, or has several blocks or inner
+/// lines.
 std::vector<std::string> check(const Communicator& comm, const Mesh& mesh);
 
 /// A mesh read from a file, with its blocks and inner lines. Numbers of nodes and cells are those of the file
@@ -331,9 +332,9 @@ std::vector<std::string> extrude(const Communicator& comm, Mesh mesh, const std:
                                  ExtrusionAxis axis = ExtrusionAxis::z);
 
 /// Returns a picture of a mesh, or of the variable options.field of the solution, as the bytes of a file: on
-/// the root rank, which gets the cells one after another; none on other ranks. "mach" and "pressure_coefficient" are
-/// computed from a flow that lacks them. Throws InputError for a variable that does not exist, or a window
-/// without cells.
+/// the root rank, which gets the cells one after another; none on other ranks. "mach" and
+/// "pressure_coefficient" are computed from a flow that lacks them. Throws InputError for a variable that
+/// does not exist, or a window without cells.
 std::string picture(const Communicator& comm, Mesh mesh, Field solution = {}, const PlotOptions& options = {},
                     PlotFormat format = PlotFormat::png);
 

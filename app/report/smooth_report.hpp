@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "mesher/base/json.hpp"
-#include "mesher/mesh/check/quality.hpp"
 #include "mesher/mesh/check/edge_statistics.hpp"
+#include "mesher/mesh/check/quality.hpp"
 #include "smoother/shape_histogram.hpp"
 
 namespace quadloop::app {

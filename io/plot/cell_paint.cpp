@@ -28,8 +28,7 @@ CellPaint paint_types(const Communicator& comm, const LoadedMesh& loaded,
   CellPaint paint;
   paint.palette = {{1.0, 0.855, 0.71}, {0.835, 0.905, 0.975}};
   for (const std::size_t cell : cells) paint.colours.push_back(cell < loaded.mesh.triangles.size() ? 0 : 1);
-  if (comm.any(std::ranges::count(paint.colours, 1) > 0))
-    paint.legend.push_back({paint.palette[1], "quads"});
+  if (comm.any(std::ranges::count(paint.colours, 1) > 0)) paint.legend.push_back({paint.palette[1], "quads"});
   if (comm.any(std::ranges::count(paint.colours, 0) > 0))
     paint.legend.push_back({paint.palette[0], "triangles"});
   return paint;
@@ -163,7 +162,8 @@ CellPaint paint_field(const Communicator& comm, const LoadedMesh& loaded,
 
 }  // namespace
 
-std::vector<double> with_ghost_values(const Communicator& comm, const Mesh& mesh, std::vector<double> values) {
+std::vector<double> with_ghost_values(const Communicator& comm, const Mesh& mesh,
+                                      std::vector<double> values) {
   values.resize(mesh.points.size());
   NodeExchange(comm, NodeOwners(comm, mesh.first_node), mesh.owned_nodes, mesh.ghosts).update(values);
   return values;

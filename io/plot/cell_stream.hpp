@@ -63,7 +63,8 @@ class CellStream {
     const auto quads = std::ranges::lower_bound(cells, mesh_.triangles.size());
     const std::size_t triangles = quads - cells.begin();
     for (const auto& part : {cells.first(triangles), cells.subspan(triangles)}) {
-      hand_to_root(comm_, part.size(), [&](std::size_t i) { return shown(part[i], values); }, visit);
+      hand_to_root(
+          comm_, part.size(), [&](std::size_t i) { return shown(part[i], values); }, visit);
     }
   }
 

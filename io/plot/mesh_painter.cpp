@@ -120,7 +120,8 @@ class DrawnEdges {
       return true;
     });
     for (const TravellingEdge& edge : out.deliver(comm)) {
-      edges_.push_back({owners.local(edge.first), NodeId{size32(mesh_.points) + size32(others_)}, edge.thickness});
+      edges_.push_back(
+          {owners.local(edge.first), NodeId{size32(mesh_.points) + size32(others_)}, edge.thickness});
       others_.push_back(edge.second);
     }
   }

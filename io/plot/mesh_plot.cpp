@@ -122,7 +122,11 @@ ShownFields shown_fields(const Communicator& comm, const LoadedMesh& loaded, con
 class Picture {
  public:
   Picture(const Communicator& comm, const LoadedMesh& loaded, const PlotOptions& options, PlotFormat format)
-      : comm_{comm}, loaded_{loaded}, options_{options}, format_{format}, sheet_{sheet_of(options.centimetres, format)} {}
+      : comm_{comm},
+        loaded_{loaded},
+        options_{options},
+        format_{format},
+        sheet_{sheet_of(options.centimetres, format)} {}
 
   /// *Collective.*
   std::string draw() const {

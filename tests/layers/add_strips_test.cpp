@@ -6,8 +6,8 @@
 #include <numeric>
 
 #include "mesher/build/build_mesh.hpp"
-#include "mesher/mesh/check/quality.hpp"
 #include "mesher/mesh/check/edge_statistics.hpp"
+#include "mesher/mesh/check/quality.hpp"
 #include "mesher/mesh/check/validate.hpp"
 #include "mesher/mesh/layers/layer_nodes.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"

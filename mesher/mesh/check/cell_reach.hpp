@@ -20,9 +20,9 @@ class CellReach {
   /// first.
   CellReach(const Mesh& mesh, const std::vector<double>& longest) : mesh_{mesh}, longest_{longest} {}
 
-  /// Returns the maximum of longest edge minus half the distance to the point, over nearby cells of this rank;
-  /// 0 if none is nearby. The search stops at `enough` and extends to 16 times `enough` at most. Builds the
-  /// index on first use.
+  /// Returns the maximum of longest edge minus half the distance to the point, over nearby cells of this
+  /// rank; 0 if none is nearby. The search stops at `enough` and extends to 16 times `enough` at most. Builds
+  /// the index on first use.
   double size_at(Point p, double enough);
 
   /// Returns the longest edge of this rank's cells within `distance` of the point; 0 if there is none.

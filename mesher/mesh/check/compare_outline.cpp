@@ -362,9 +362,10 @@ void settle(const std::vector<Doubt>& doubts, const std::vector<double>& answers
       const double size = std::max(doubt.loop_size.x, doubt.loop_size.y);
       if (doubt.question->is_size ? doubt.question->distance <= cells : size <= fragments * cells) continue;
       if (!doubt.question->is_size)
-        what = fmt::format("a loop of boundary {}, {:.6g} wide and {:.6g} high, is not in the mesh, where "
-                           "cells are {:.6g} long",
-                           doubt.what, doubt.loop_size.x, doubt.loop_size.y, cells);
+        what = fmt::format(
+            "a loop of boundary {}, {:.6g} wide and {:.6g} high, is not in the mesh, where "
+            "cells are {:.6g} long",
+            doubt.what, doubt.loop_size.x, doubt.loop_size.y, cells);
     }
     fit.faults.push_back({MeshRule::geometry, what, doubt.place});
   }

@@ -40,7 +40,8 @@ struct ColumnValue {
 /// Values of the columns of one boundary or strip on this rank.
 struct LayerTally {
   std::int64_t columns = 0;
-  std::vector<GlobalNodeId> cut;  ///< columns at the border of a partition, where their continuation is missing
+  std::vector<GlobalNodeId>
+      cut;  ///< columns at the border of a partition, where their continuation is missing
   std::vector<double> first, thickness;
   std::vector<ColumnValue> growth;
 
@@ -175,7 +176,8 @@ class WallColumns {
     while (comm_.any(!columns.empty())) {
       Outbox<Column> out;
       for (Column& column : columns) {
-        while (owners_.rank_of(column.at) == comm_.rank() && follow(column)) {}
+        while (owners_.rank_of(column.at) == comm_.rank() && follow(column)) {
+        }
         if (const int rank = owners_.rank_of(column.at); rank != comm_.rank()) out.add(rank, column);
       }
       columns = out.deliver(comm_);
@@ -265,8 +267,7 @@ class WallColumns {
 class StripColumns {
  public:
   /// `points` are the positions of the strip's nodes.
-  StripColumns(const StripLayers& strip, const std::vector<Point>& points)
-      : strip_{strip}, points_{points} {}
+  StripColumns(const StripLayers& strip, const std::vector<Point>& points) : strip_{strip}, points_{points} {}
 
   LayerTally tally() const {
     LayerTally tally;

@@ -126,7 +126,8 @@ class CornerTally {
     if (shape.corners > shape.corners_of_outline + shape.corners_in_passages)
       std::tie(shape.smallest_degrees, shape.largest_degrees) = std::tuple(smallest, largest);
     shape.passages = all_places(comm_, own_.passages);
-    shape.sharp_places = all_places(comm_, own_.sharp_places);  // at each place the smallest angle comes first
+    shape.sharp_places =
+        all_places(comm_, own_.sharp_places);  // at each place the smallest angle comes first
     const auto again = std::ranges::unique(shape.sharp_places, {}, &SharpPlace::place);
     shape.sharp_places.erase(again.begin(), again.end());
   }
@@ -161,7 +162,8 @@ class CornerTally {
     const double degrees = corner.degrees();
     const bool narrow = has_geometry_ && degrees > 0 && degrees < sharp_corner_degrees;
     const bool on_boundary = narrow && on_boundary_[node] != 0;
-    if (narrow && (sharp_.contains(p) || (on_boundary && is_boundary(before, node) && is_boundary(node, after)))) {
+    if (narrow &&
+        (sharp_.contains(p) || (on_boundary && is_boundary(before, node) && is_boundary(node, after)))) {
       ++own_.corners_of_outline;
       own_.sharp_places.push_back({p, degrees});
     } else if (on_boundary && all_on_boundary(nodes)) {

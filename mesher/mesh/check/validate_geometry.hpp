@@ -33,11 +33,12 @@ struct GeometryFit {
 /// belong to its geometry.
 inline constexpr double largest_area_error = 0.05;
 
-/// Compares a valid mesh with the polylines it was made from; `halo` and `edges` are its. The root gets the boundary edges only, and the
-/// result. `tolerance` is relative to the mesh's extent. `blocks` has the blocks of this rank's cells; with
-/// several the polylines must have points where blocks meet; one between two blocks may occur twice, once in
-/// each direction: then the mesh must have cells on both sides of it. Boundaries of the mesh that are inner
-/// lines are compared too. Independent of the number of ranks. *Collective.*
+/// Compares a valid mesh with the polylines it was made from; `halo` and `edges` are its. The root gets the
+/// boundary edges only, and the result. `tolerance` is relative to the mesh's extent. `blocks` has the blocks
+/// of this rank's cells; with several the polylines must have points where blocks meet; one between two
+/// blocks may occur twice, once in each direction: then the mesh must have cells on both sides of it.
+/// Boundaries of the mesh that are inner lines are compared too. Independent of the number of ranks.
+/// *Collective.*
 GeometryFit validate_geometry(const Communicator& comm, const Mesh& mesh, const HaloMesh& halo,
                               const EdgeStatistics& edges, std::span<const Chain> geometry,
                               const CellBlocks& blocks = {}, double tolerance = 1e-9);

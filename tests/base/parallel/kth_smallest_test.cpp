@@ -26,7 +26,8 @@ TEST(KthSmallest, IsThatOfAllRanksValues) {
     if (mine) own.push_back(value);
   }
   std::ranges::sort(all);
-  for (const std::int64_t k : {1, 2, 500, 990, 991, 1000}) EXPECT_EQ(kth_smallest(world(), own, k), all[k - 1]) << k;
+  for (const std::int64_t k : {1, 2, 500, 990, 991, 1000})
+    EXPECT_EQ(kth_smallest(world(), own, k), all[k - 1]) << k;
 }
 
 TEST(KthSmallest, OfOneRanksValuesAndInfinity) {

@@ -1,6 +1,8 @@
 // How a field becomes colours, contour lines and streamlines.
 #include <gtest/gtest.h>
+#include <mpi.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -9,6 +11,7 @@
 #include "io/plot/canvas/colour_map.hpp"
 #include "io/plot/contour_lines.hpp"
 #include "io/plot/mesh_painter.hpp"
+#include "io/plot/mesh_plot.hpp"
 #include "io/plot/streamlines.hpp"
 #include "io/plot/value_raster.hpp"
 #include "mesher/base/error.hpp"
@@ -82,25 +85,22 @@ TEST(ValueRaster, WhatIsNotFiniteIsGreyAndPiecesWithoutAreaAreNothing) {
 
 /// One cell on [0, 1] x [0, 1], and a view of it.
 struct OneQuad {
-  OneQuad() {
-    mesh.points = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-    mesh.owned_nodes = 4;
-    mesh.quads = {{NodeId{0}, NodeId{1}, NodeId{2}, NodeId{3}}};
+  ShownCell with(const std::array<double, 4>& values) const {
+    return {{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}}, values, 4};
   }
-  Mesh mesh;
   PlotView view{{{0, 0}, {1, 1}}, 800, {}, false};
 };
 
 TEST(Pieces, OfAQuadAreBilinear) {
   const OneQuad quad;
   std::vector<LinearPiece> pieces;
-  append_pieces(quad.mesh, quad.view, 0, {0, 1, 5, 0}, pieces);  // s + 4 s t
+  append_pieces(quad.view, quad.with({0, 1, 5, 0}), pieces);  // s + 4 s t
   ValueRaster raster(quad.view.frame(), 1);
   for (const LinearPiece& piece : pieces) raster.add(piece);
   for (const Point p : {Point{0.5, 0.5}, {0.25, 0.75}, {0.9, 0.2}, {0.31, 0.47}})
     EXPECT_NEAR(raster.at(quad.view.pixel(p)), p.x + 4 * p.x * p.y, 4e-3);
   pieces.clear();
-  append_pieces(quad.mesh, quad.view, 0, {0, 1, 2, 1}, pieces);
+  append_pieces(quad.view, quad.with({0, 1, 2, 1}), pieces);
   EXPECT_EQ(pieces.size(), 4U) << "a plane needs no more";
 }
 
@@ -184,7 +184,9 @@ TEST(MeshPlot, ShowsWhatIsAskedFor) {
   options.size = 400;
   options.field = "q";
   std::set<std::string> pictures;
-  const auto draw = [&] { pictures.insert(draw_mesh(loaded, options, PlotFormat::png)); };
+  const auto draw = [&] {
+    pictures.insert(draw_mesh(Communicator(MPI_COMM_SELF), loaded, options, PlotFormat::png));
+  };
   draw();
   options.lines = true;
   draw();
@@ -210,9 +212,9 @@ TEST(MeshPlot, StreamlinesNeedAVelocity) {
   PlotOptions options;
   options.streamlines = 5;
   loaded.solution->names = {"q", "a", "b"};
-  EXPECT_THROW(draw_mesh(loaded, options, PlotFormat::png), InputError);
+  EXPECT_THROW(draw_mesh(Communicator(MPI_COMM_SELF), loaded, options, PlotFormat::png), InputError);
   loaded.solution.reset();
-  EXPECT_THROW(draw_mesh(loaded, options, PlotFormat::png), InputError);
+  EXPECT_THROW(draw_mesh(Communicator(MPI_COMM_SELF), loaded, options, PlotFormat::png), InputError);
 }
 
 }  // namespace

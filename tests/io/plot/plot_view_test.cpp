@@ -3,6 +3,7 @@
 #include "io/plot/plot_view.hpp"
 
 #include <gtest/gtest.h>
+#include <mpi.h>
 
 #include <cmath>
 #include <limits>
@@ -125,16 +126,16 @@ CellPaint painted(const LoadedMesh& loaded, const std::string& field) {
   PlotOptions options;
   options.field = field;
   options.smooth = false;
-  return paint_cells(loaded, all_cells(loaded.mesh), options);
+  return paint_cells(Communicator(MPI_COMM_SELF), loaded, all_cells(loaded.mesh), options);
 }
 
 TEST(CellPaint, TypesThatAreThereStandInTheLegend) {
   const LoadedMesh loaded = sample();
-  const CellPaint both = paint_cells(loaded, all_cells(loaded.mesh), {});
+  const CellPaint both = paint_cells(Communicator(MPI_COMM_SELF), loaded, all_cells(loaded.mesh), {});
   EXPECT_EQ(both.legend.size(), 2U);
   EXPECT_FALSE(both.bar.has_value());
   EXPECT_EQ(both.colours.size(), cell_count(loaded.mesh));
-  const CellPaint triangles = paint_cells(loaded, {0, 1}, {});
+  const CellPaint triangles = paint_cells(Communicator(MPI_COMM_SELF), loaded, {0, 1}, {});
   ASSERT_EQ(triangles.legend.size(), 1U);
   EXPECT_EQ(triangles.legend[0].name, "triangles");
 }
@@ -143,15 +144,19 @@ TEST(CellPaint, OfManyBlocksTheLegendSaysNothing) {
   LoadedMesh loaded = sample();
   PlotOptions options;
   options.colouring = PlotColouring::block;
-  EXPECT_EQ(paint_cells(loaded, all_cells(loaded.mesh), options).legend.at(0).name, "fluid");
+  EXPECT_EQ(
+      paint_cells(Communicator(MPI_COMM_SELF), loaded, all_cells(loaded.mesh), options).legend.at(0).name,
+      "fluid");
   loaded.block_names.clear();
-  EXPECT_EQ(paint_cells(loaded, all_cells(loaded.mesh), options).legend.at(0).name, "block 1");
+  EXPECT_EQ(
+      paint_cells(Communicator(MPI_COMM_SELF), loaded, all_cells(loaded.mesh), options).legend.at(0).name,
+      "block 1");
   LoadedMesh many;
   many.mesh = test::sample_mesh(20);
   for (std::size_t i = 0; i < many.mesh.triangles.size(); ++i)
     many.triangle_to_block.push_back(static_cast<std::int32_t>(i));
   many.quad_to_block.assign(many.mesh.quads.size(), 0);
-  EXPECT_TRUE(paint_cells(many, all_cells(many.mesh), options).legend.empty());
+  EXPECT_TRUE(paint_cells(Communicator(MPI_COMM_SELF), many, all_cells(many.mesh), options).legend.empty());
 }
 
 TEST(CellPaint, FieldsHaveABarFromTheSmallestToTheLargest) {
@@ -166,12 +171,12 @@ TEST(CellPaint, ARangeIsTakenAsItIsAskedFor) {
   const LoadedMesh loaded = with_field([](std::int32_t node) { return 1.0 * node; });
   PlotOptions options;
   options.field = "q";
-  const CellPaint smooth = paint_cells(loaded, all_cells(loaded.mesh), options);
+  const CellPaint smooth = paint_cells(Communicator(MPI_COMM_SELF), loaded, all_cells(loaded.mesh), options);
   EXPECT_EQ(smooth.bar->low, 0) << "the least of the nodes' values, not of the cells'";
   EXPECT_EQ(smooth.bar->high, loaded.mesh.owned_nodes - 1);
   options.range = {-3.0, 2.5};
   options.map = "grey";
-  const CellPaint paint = paint_cells(loaded, all_cells(loaded.mesh), options);
+  const CellPaint paint = paint_cells(Communicator(MPI_COMM_SELF), loaded, all_cells(loaded.mesh), options);
   EXPECT_EQ(paint.bar->low, -3);
   EXPECT_EQ(paint.bar->high, 2.5);
   EXPECT_EQ(paint.bar->colour, colour_map_named("grey"));
@@ -211,20 +216,20 @@ TEST(MeshPlot, IsAPictureOfTheFormatAndTheSameEachTime) {
   const LoadedMesh loaded = sample();
   PlotOptions options;
   options.size = 400;
-  EXPECT_TRUE(draw_mesh(loaded, options, PlotFormat::svg).starts_with("<?xml"));
-  EXPECT_TRUE(draw_mesh(loaded, options, PlotFormat::pdf).starts_with("%PDF"));
-  const std::string picture = draw_mesh(loaded, options, PlotFormat::png);
+  EXPECT_TRUE(draw_mesh(Communicator(MPI_COMM_SELF), loaded, options, PlotFormat::svg).starts_with("<?xml"));
+  EXPECT_TRUE(draw_mesh(Communicator(MPI_COMM_SELF), loaded, options, PlotFormat::pdf).starts_with("%PDF"));
+  const std::string picture = draw_mesh(Communicator(MPI_COMM_SELF), loaded, options, PlotFormat::png);
   EXPECT_TRUE(picture.starts_with("\x89PNG"));
-  EXPECT_TRUE(draw_mesh(loaded, options, PlotFormat::png) == picture);
+  EXPECT_TRUE(draw_mesh(Communicator(MPI_COMM_SELF), loaded, options, PlotFormat::png) == picture);
   options.colouring = PlotColouring::quality;
-  EXPECT_FALSE(draw_mesh(loaded, options, PlotFormat::png) == picture);
+  EXPECT_FALSE(draw_mesh(Communicator(MPI_COMM_SELF), loaded, options, PlotFormat::png) == picture);
 }
 
 TEST(MeshPlot, WindowsWithoutCellsAreRefused) {
   PlotOptions options;
   for (const Box& window : {Box{{5, 5}, {6, 6}}, Box{{0, 0}, {0, 1}}, Box{{1, 1}, {0, 0}}}) {
     options.window = window;
-    EXPECT_THROW(draw_mesh(sample(), options, PlotFormat::png), InputError);
+    EXPECT_THROW(draw_mesh(Communicator(MPI_COMM_SELF), sample(), options, PlotFormat::png), InputError);
   }
 }
 

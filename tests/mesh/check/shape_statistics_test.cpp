@@ -76,8 +76,7 @@ void expect_no_exception(const Mesh& mesh, const std::vector<Chain>& geometry) {
 }
 
 TEST(ShapeStatistics, SquareAndTriangle) {
-  const ShapeStatistics shape =
-      shape_of(square_beside_triangle(), {});
+  const ShapeStatistics shape = shape_of(square_beside_triangle(), {});
   EXPECT_EQ(shape.corners, 7);
   EXPECT_EQ(shape.corners_below_15, 0);
   EXPECT_EQ(shape.corners_below_26, 0);
@@ -195,8 +194,7 @@ Mesh strip(std::int32_t squares) {
 }
 
 TEST(ShapeStatistics, AreaRatioOf99Percent) {
-  const ShapeStatistics hundred_edges = shape_of(strip(100), {}),
-                        few = shape_of(strip(98), {});
+  const ShapeStatistics hundred_edges = shape_of(strip(100), {}), few = shape_of(strip(98), {});
   EXPECT_EQ(hundred_edges.area_ratio_max, 3);
   EXPECT_EQ(hundred_edges.area_ratio_p99, 1);
   EXPECT_EQ(few.area_ratio_p99, 3);  // one edge of 98 is more than 1 percent

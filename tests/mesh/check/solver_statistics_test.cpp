@@ -6,8 +6,8 @@
 #include <map>
 #include <set>
 
-#include "mesher/mesh/check/quality.hpp"
 #include "mesher/mesh/check/edge_statistics.hpp"
+#include "mesher/mesh/check/quality.hpp"
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
 
