@@ -11,6 +11,7 @@
 
 #include "mesher/base/parallel/exchange.hpp"
 #include "mesher/mesh/check/corner_range.hpp"
+#include "mesher/mesh/check/quality.hpp"
 #include "mesher/mesh/node_exchange.hpp"
 
 namespace quadloop {
