@@ -57,7 +57,7 @@ class CgnsConnections {
 };
 
 /// Returns the node's number over all zones, from 0, of a number in a zone of `nodes`, named `zone`, that
-/// follow `first` others. Throws InputError if it is none of the zone.
+/// follow `first` others. Throws InputError if the zone has no such node.
 std::int32_t node_of_zone(const CgnsFile& file, const std::string& zone, cgsize_t number, cgsize_t nodes,
                           std::size_t first);
 

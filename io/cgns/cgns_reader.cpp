@@ -39,7 +39,7 @@ std::optional<MeshOfFile> read_at_root(const Communicator& comm, const std::stri
   return {};
 }
 
-/// Returns nothing, on all ranks, if one of them found a number that is none of a mesh, or cannot read the
+/// Returns nothing, on all ranks, if one of them found an invalid number, or cannot read the
 /// file. *Collective.*
 std::optional<LoadedMesh> read_by_ranges(const Communicator& comm, const std::string& path,
                                          CgnsContents contents) {

@@ -12,7 +12,7 @@
 
 namespace quadloop::io {
 
-/// What the field data of our own files name.
+/// The names in the field data of files that this program has written.
 struct VtuNames {
   std::vector<std::string> boundaries, blocks;
   bool has_layers = false;  ///< whether heights of layers are among the point data

@@ -134,7 +134,7 @@ class VtuRanges {
     return *found;
   }
 
-  /// Before the numbers stands how many bytes they are.
+  /// The size of the numbers in bytes precedes them.
   PlacedArray placed(const VtuArray& array) const {
     using enum PlacedArray::Number;
     constexpr std::array<std::pair<std::string_view, PlacedArray::Number>, 5> kinds{{{"Float64", real_64},

@@ -118,9 +118,9 @@ class ColumnsOnWall::Columns {
     double length = 0, convergence = 0;
   };
 
-  /// The same with shares of the crowded stations, each of another rank. If no column that one of them
-  /// depends on was changed by another, these are the columns of turn(); else with fewer, larger shares.
-  /// *Collective.*
+  /// The same on several ranks: each turns the columns around its share of the crowded stations. If no rank
+  /// has changed a column on which those of another rank depend, the result is that of turn(). Otherwise the
+  /// work is repeated with fewer, larger shares. *Collective.*
   void turn_together(std::vector<std::int32_t> crowded, int shares) {
     constexpr int fewer = 4;
     if (shares <= 1) return turn(std::move(crowded));

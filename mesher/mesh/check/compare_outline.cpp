@@ -136,13 +136,13 @@ class Comparison {
     compare_corners();
     compare_area();
     if (outline_.blocks > 1) compare_blocks();
-    return {std::move(fit_), std::move(doubts_)};
+    return {std::move(fit_), std::move(possible_faults_)};
   }
 
  private:
   using Ends = std::pair<Point, Point>;
 
-  void fault(const std::string& what, Point place) { doubts_.push_back({what, place}); }
+  void fault(const std::string& what, Point place) { possible_faults_.push_back({what, place}); }
 
   const EdgeSides& sides_of(const BoundaryEdges& boundary, std::size_t edge) const {
     return outline_.sides[first_edges_[&boundary - mesh_.boundaries.data()] + edge];
@@ -153,7 +153,7 @@ class Comparison {
       for (const NodeId node : edge) {
         const auto [segment, away] = outline.segments.nearest(mesh_.point(node));
         fit_.boundary_node_distance = std::max(fit_.boundary_node_distance, away);
-        if (away > tolerance_ && node == edge[0]) doubt_node(boundary, mesh_.point(node), away);
+        if (away > tolerance_ && node == edge[0]) note_far_node(boundary, mesh_.point(node), away);
         if (segment < outline.segment_chain.size()) met_[outline.segment_chain[segment]] = 1;
       }
     }
@@ -174,9 +174,9 @@ class Comparison {
   }
 
   /// If the joint of two boundaries is lost within a quadtree cell, the edges of one end on the other.
-  void doubt_node(const BoundaryEdges& boundary, Point p, double away) {
+  void note_far_node(const BoundaryEdges& boundary, Point p, double away) {
     fault("a node of boundary " + boundary.name + " lies off it", p);
-    if (is_on_geometry(p)) doubts_.back().question = ReachQuestion{p, away, true};
+    if (is_on_geometry(p)) possible_faults_.back().question = ReachQuestion{p, away, true};
   }
 
   bool is_on_geometry(Point p) {
@@ -214,7 +214,7 @@ class Comparison {
     if (away <= tolerance_ || (sides.left != EdgeSides::none && away <= sides.longest)) return;
     fault("a point of boundary " + boundary.name + " is farther from the mesh than the cells there are long",
           p);
-    doubts_.back().question = ReachQuestion{p, away, true};
+    possible_faults_.back().question = ReachQuestion{p, away, true};
   }
 
   /// Flags chains that coincide with one that a boundary node lies on, as those between two blocks and those
@@ -296,8 +296,8 @@ class Comparison {
       for (const Point p : chain.points) box.include(p);
       const double size = std::max(box.width(), box.height());
       fault(chain.name, box.centre());
-      doubts_.back().question = ReachQuestion{box.centre(), loop_reach * size};
-      doubts_.back().loop_size = {box.width(), box.height()};
+      possible_faults_.back().question = ReachQuestion{box.centre(), loop_reach * size};
+      possible_faults_.back().loop_size = {box.width(), box.height()};
     }
   }
 
@@ -342,7 +342,7 @@ class Comparison {
   Point centre_;
   double tolerance_;
   GeometryFit fit_;
-  std::vector<Doubt> doubts_;
+  std::vector<PossibleFault> possible_faults_;
 };
 
 }  // namespace
@@ -352,22 +352,23 @@ OutlineComparison compare_outline(const MeshOutline& outline, std::span<const Ch
   return Comparison(outline, geometry, tolerance).run();
 }
 
-/// Adds the doubts that the cells around, given their longest edges, do not remove.
-void settle(const std::vector<Doubt>& doubts, const std::vector<double>& answers, GeometryFit& fit) {
+void add_confirmed(const std::vector<PossibleFault>& possible_faults, const std::vector<double>& answers,
+                   GeometryFit& fit) {
   auto answer = answers.begin();
-  for (const Doubt& doubt : doubts) {
-    std::string what = doubt.what;
-    if (doubt.question) {
+  for (const PossibleFault& possible : possible_faults) {
+    std::string what = possible.what;
+    if (possible.question) {
       const double cells = *answer++;
-      const double size = std::max(doubt.loop_size.x, doubt.loop_size.y);
-      if (doubt.question->is_size ? doubt.question->distance <= cells : size <= fragments * cells) continue;
-      if (!doubt.question->is_size)
+      const double size = std::max(possible.loop_size.x, possible.loop_size.y);
+      if (possible.question->is_size ? possible.question->distance <= cells : size <= fragments * cells)
+        continue;
+      if (!possible.question->is_size)
         what = fmt::format(
             "a loop of boundary {}, {:.6g} wide and {:.6g} high, is not in the mesh, where "
             "cells are {:.6g} long",
-            doubt.what, doubt.loop_size.x, doubt.loop_size.y, cells);
+            possible.what, possible.loop_size.x, possible.loop_size.y, cells);
     }
-    fit.faults.push_back({MeshRule::geometry, what, doubt.place});
+    fit.faults.push_back({MeshRule::geometry, what, possible.place});
   }
 }
 

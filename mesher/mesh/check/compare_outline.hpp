@@ -40,23 +40,24 @@ struct MeshOutline {
   std::int32_t blocks = 1;
 };
 
-/// A fault of rule `geometry`, unless the cells around are large.
-struct Doubt {
+/// A fault of rule `geometry`; if it has a question, only a fault if the cells around are small.
+struct PossibleFault {
   std::string what;  ///< of a loop the name of its boundary
   Point place;
-  std::optional<ReachQuestion> question = {};  ///< none: there is no doubt
+  std::optional<ReachQuestion> question = {};  ///< none: certainly a fault
   Point loop_size = {};
 };
 
-/// A comparison but for its doubts: their faults are not among those of `fit`.
+/// The result of a comparison; the faults of `fit` lack the possible ones.
 struct OutlineComparison {
   GeometryFit fit;
-  std::vector<Doubt> doubts;
+  std::vector<PossibleFault> possible_faults;
 };
 OutlineComparison compare_outline(const MeshOutline& outline, std::span<const Chain> geometry,
                                   double tolerance);
 
-/// Adds the faults that the answers to the questions of doubts, in their order, do not rule out.
-void settle(const std::vector<Doubt>& doubts, const std::vector<double>& answers, GeometryFit& fit);
+/// Adds the possible faults that the answers to their questions, in their order, do not rule out.
+void add_confirmed(const std::vector<PossibleFault>& possible_faults, const std::vector<double>& answers,
+                   GeometryFit& fit);
 
 }  // namespace quadloop

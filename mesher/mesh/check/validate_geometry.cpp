@@ -93,11 +93,12 @@ GeometryFit validate_geometry(const Communicator& comm, const Mesh& mesh, const 
   comm.together([&] {
     if (!comm.is_root()) return;
     compared = compare_outline(outline, geometry, tolerance);
-    for (const Doubt& doubt : compared.doubts) {
-      if (doubt.question) questions.push_back(*doubt.question);
+    for (const PossibleFault& possible : compared.possible_faults) {
+      if (possible.question) questions.push_back(*possible.question);
     }
   });
-  settle(compared.doubts, answers_over(comm, mesh, longest, std::move(questions)), compared.fit);
+  add_confirmed(compared.possible_faults, answers_over(comm, mesh, longest, std::move(questions)),
+                compared.fit);
   return compared.fit;
 }
 
