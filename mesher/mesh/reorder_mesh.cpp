@@ -84,6 +84,8 @@ NewNumbers new_numbers(const Communicator& comm, const Mesh& mesh, const RowMove
   std::int64_t next = comm.exclusive_sum(static_cast<std::int64_t>(moved));
   for (std::int64_t& number : own) number = next++;
   NewNumbers numbers = nodes.back(own);
+  own = {};
+  numbers.reserve(mesh.points.size());
   numbers.resize(mesh.points.size());
   const NodeOwners owners(comm, mesh.first_node);
   NodeExchange(comm, owners, mesh.owned_nodes, mesh.ghosts).update(numbers);
@@ -300,7 +302,9 @@ void ReorderedMesh::put_back(const Mesh& changed, Mesh& old) const {
 }
 
 void ReorderedMesh::put_cells_back(const Mesh& changed, Mesh& old) const {
-  NewNumbers numbers = old_nodes_;
+  NewNumbers numbers;
+  numbers.reserve(changed.points.size());
+  numbers = old_nodes_;
   numbers.resize(changed.points.size());
   NodeExchange(comm_, NodeOwners(comm_, changed.first_node), changed.owned_nodes, changed.ghosts)
       .update(numbers);
