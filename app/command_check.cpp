@@ -60,9 +60,11 @@ std::vector<Chain> load_chains(const CommandContext& context, const std::string&
 
 /// Returns the number of edges of each boundary. *Collective.*
 CheckReport::Edges edges_of(const Communicator& comm, const std::vector<BoundaryEdges>& boundaries) {
+  std::vector<std::int64_t> counts;
+  for (const BoundaryEdges& boundary : boundaries) counts.push_back(std::ssize(boundary.edges));
+  counts = comm.sum(counts);
   CheckReport::Edges edges;
-  for (const BoundaryEdges& boundary : boundaries)
-    edges.emplace_back(boundary.name, comm.sum(std::ssize(boundary.edges)));
+  for (std::size_t b = 0; b < boundaries.size(); ++b) edges.emplace_back(boundaries[b].name, counts[b]);
   return edges;
 }
 

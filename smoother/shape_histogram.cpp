@@ -60,9 +60,7 @@ std::vector<Histogram> shape_histograms(const Communicator& comm, const Mesh& me
   };
   add_cells(mesh.triangles);
   add_cells(mesh.quads);
-  for (Histogram& h : histograms) {
-    for (std::int64_t& count : h.counts) count = comm.sum(count);
-  }
+  for (Histogram& h : histograms) h.counts = comm.sum(h.counts);
   return histograms;
 }
 

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "mesher/base/error.hpp"
+#include "mesher/base/parallel/kth_smallest.hpp"
 
 namespace quadloop::adapt {
 
@@ -62,18 +63,8 @@ std::int64_t OrderedValues::count_up_to(double bound) const {
 
 double OrderedValues::kth_smallest(std::int64_t k) const {
   QUADLOOP_REQUIRE(1 <= k && k <= count_, "there is no such value", k, count_);
-  // The bits of doubles that are not negative are integers in the same order, so halving an interval of them
-  // ends at the very value.
-  auto low = std::bit_cast<std::uint64_t>(smallest_), high = std::bit_cast<std::uint64_t>(largest_);
-  while (low < high) {
-    const std::uint64_t middle = low + (high - low) / 2;
-    if (comm_->sum(count_up_to(std::bit_cast<double>(middle))) >= k) {
-      high = middle;
-    } else {
-      low = middle + 1;
-    }
-  }
-  return std::bit_cast<double>(low);
+  return quadloop::kth_smallest(smallest_, largest_, k,
+                                [&](double bound) { return comm_->sum(count_up_to(bound)); });
 }
 
 std::int64_t OrderedValues::count_of_share(double share) const {

@@ -14,7 +14,7 @@
 
 namespace quadloop::io {
 
-/// Builds a rank's part of a mesh in a native file from its even shares of the arrays. Global node numbers
+/// Builds a rank's part of a mesh in a file from its even shares of the arrays. Global node numbers
 /// are those of the file, from 0. All other arguments are the same on all ranks.
 class FilePart {
  public:

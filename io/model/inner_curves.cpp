@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -17,14 +16,6 @@
 namespace quadloop::io {
 
 namespace {
-
-/// Returns the sums over all ranks. *Collective.*
-std::vector<std::int64_t> sums(const Communicator& comm, const std::vector<std::int64_t>& own) {
-  const std::vector<std::int64_t> all = comm.all_gather_values(std::span<const std::int64_t>(own));
-  std::vector<std::int64_t> result(own.size());
-  for (std::size_t i = 0; i < all.size(); ++i) result[i % own.size()] += all[i];
-  return result;
-}
 
 /// Moves the edges for which `is_inside(edge)`, called for all in their order, to inner curves. *Collective.*
 template <class IsInside>
@@ -39,7 +30,7 @@ void move_to_inner_curves(const Communicator& comm, const IsInside& is_inside, L
       (is_inside(edge) ? curve : boundary).edges.push_back(edge);
     counts.insert(counts.end(), {std::ssize(curve.edges), std::ssize(boundary.edges)});
   }
-  counts = sums(comm, counts);
+  counts = comm.sum(counts);
   std::vector<std::string> names;
   std::int64_t count = 0;
   for (std::size_t b = 0; b < curves.size(); ++b) {
@@ -86,7 +77,7 @@ void separate_inner_curves(const Communicator& comm, LoadedMesh& loaded, const s
 void drop_empty_boundaries(const Communicator& comm, Mesh& mesh) {
   std::vector<std::int64_t> edges;
   for (const BoundaryEdges& boundary : mesh.boundaries) edges.push_back(std::ssize(boundary.edges));
-  edges = sums(comm, edges);
+  edges = comm.sum(edges);
   std::erase_if(mesh.boundaries, [&, b = std::size_t{0}](const auto&) mutable { return edges[b++] == 0; });
 }
 

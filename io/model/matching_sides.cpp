@@ -5,6 +5,7 @@
 #include <tuple>
 #include <utility>
 
+#include "mesher/mesh/box_over_ranks.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
 
 namespace quadloop::io {
@@ -126,9 +127,7 @@ std::vector<NodeId> nodes_of_matching_sides(const Mesh& mesh) { return matching_
 
 std::vector<NodeId> nodes_of_matching_sides(const Communicator& comm, const Mesh& mesh) {
   if (comm.size() == 1) return nodes_of_matching_sides(mesh);
-  const Box own = box_of(mesh);
-  const Box box{{comm.minimum(own.low.x), comm.minimum(own.low.y)},
-                {comm.maximum(own.high.x), comm.maximum(own.high.y)}};
+  const Box box = box_over_ranks(comm, mesh.points);
   const Mesh boundaries = gather_boundaries(comm, mesh);
   const std::vector<GlobalNodeId> globals = boundary_nodes(comm, mesh);
   std::vector<GlobalNodeId> found;

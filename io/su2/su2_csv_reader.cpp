@@ -116,12 +116,9 @@ class Su2CsvReader {
         if (own.first.size() < 2) own.first.push_back({std::string(line), number});
       });
     });
-    const std::vector<std::byte> bytes = packed(own),
-                                 all = comm_.all_gather_values(std::span<const std::byte>(bytes));
-    PackedReader reader(all);
+    std::vector<LinesOfRank> all = gather_values(comm_, own);
     for (int rank = 0; rank < comm_.size(); ++rank) {
-      LinesOfRank lines;
-      pass(reader, lines);
+      LinesOfRank& lines = all[rank];
       if (rank == comm_.rank()) {
         first_line_ = last_line_;
         first_row_ = loaded_.nodes;

@@ -147,14 +147,10 @@ class Su2Ranges {
             if (name.empty()) name = trimmed(line.substr(std::string_view(su2_block_comment).size()), blanks);
           });
     });
-    const std::vector<std::byte> bytes = packed(own),
-                                 all = comm_.all_gather_values(std::span<const std::byte>(bytes));
-    PackedReader reader(all);
+    std::vector<KeysOfRank> all = gather_values(comm_, own);
     for (int rank = 0; rank < comm_.size(); ++rank) {
-      KeysOfRank keys;
-      pass(reader, keys);
       if (rank == comm_.rank()) first_key_ = keys_.size();
-      append(std::move(keys));
+      append(std::move(all[rank]));
     }
   }
 

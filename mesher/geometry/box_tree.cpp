@@ -14,8 +14,7 @@ constexpr std::int32_t leaf_items = 8;
 void BoxTree::build(std::int32_t begin, std::int32_t end) {
   Box box;
   for (const Item& item : std::span(items_.begin() + begin, items_.begin() + end)) {
-    box.include(item.box.low);
-    box.include(item.box.high);
+    box.include(item.box);
   }
   const std::size_t self = nodes_.size();
   nodes_.push_back({box, begin, end, 0});

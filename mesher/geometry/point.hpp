@@ -36,6 +36,11 @@ struct Box {
     low = {std::min(low.x, p.x), std::min(low.y, p.y)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y)};
   }
+  constexpr void include(const Box& b) {
+    low = {std::min(low.x, b.low.x), std::min(low.y, b.low.y)};
+    high = {std::max(high.x, b.high.x), std::max(high.y, b.high.y)};
+  }
+  constexpr bool empty() const { return !(low.x <= high.x); }
   constexpr double width() const { return high.x - low.x; }
   constexpr double height() const { return high.y - low.y; }
   constexpr Point centre() const { return {0.5 * (low.x + high.x), 0.5 * (low.y + high.y)}; }

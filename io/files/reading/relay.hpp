@@ -65,6 +65,17 @@ void broadcast_value(const Communicator& comm, Value& value, int from = 0) {
   if (comm.rank() != from) value = unpacked<Value>(bytes);
 }
 
+/// Returns the values of all ranks, in the order of ranks, on every rank. *Collective.*
+template <class Value>
+std::vector<Value> gather_values(const Communicator& comm, Value& own) {
+  const std::vector<std::byte> bytes = packed(own),
+                               all = comm.all_gather_values(std::span<const std::byte>(bytes));
+  std::vector<Value> values(comm.size());
+  PackedReader reader(all);
+  for (Value& value : values) pass(reader, value);
+  return values;
+}
+
 /// Lets the ranks continue the work on a value one after another, in their order: `work(value)`, which should
 /// be short and must not throw. The value before, which is used on the first rank only, is the same type's
 /// default. Returns the last rank's result on all ranks. *Collective.*

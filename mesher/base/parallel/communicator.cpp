@@ -92,6 +92,13 @@ Communicator::~Communicator() {
 std::int64_t Communicator::sum(std::int64_t value) const {
   return reduced(value, MPI_INT64_T, MPI_SUM, comm_);
 }
+std::vector<std::int64_t> Communicator::sum(std::span<const std::int64_t> values) const {
+  std::vector<std::int64_t> sums(values.size());
+  for_pieces(values.size(), largest_message / sizeof(std::int64_t), [&](std::size_t begin, int length) {
+    MPI_Allreduce(values.data() + begin, sums.data() + begin, length, MPI_INT64_T, MPI_SUM, comm_);
+  });
+  return sums;
+}
 std::int64_t Communicator::minimum(std::int64_t value) const {
   return reduced(value, MPI_INT64_T, MPI_MIN, comm_);
 }

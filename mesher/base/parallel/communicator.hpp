@@ -32,6 +32,8 @@ class Communicator {
   MPI_Comm raw() const { return comm_; }
 
   std::int64_t sum(std::int64_t value) const;
+  /// Sums entry by entry; every rank gives the same number of values.
+  std::vector<std::int64_t> sum(std::span<const std::int64_t> values) const;
   std::int64_t minimum(std::int64_t value) const;
   std::int64_t maximum(std::int64_t value) const;
   double minimum(double value) const;

@@ -1,7 +1,6 @@
 #include "mesher/base/parallel/kth_smallest.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <iterator>
 #include <limits>
 
@@ -14,16 +13,9 @@ double kth_smallest(const Communicator& comm, std::vector<double>& values, std::
   const auto begin = values.begin() + below;
   if (below > 0) std::nth_element(values.begin(), begin, values.end());
   std::sort(begin, values.end());
-  std::uint64_t low = 0, high = std::bit_cast<std::uint64_t>(std::numeric_limits<double>::infinity());
-  while (low < high) {  // numbers that are not negative are ordered as their bits
-    const std::uint64_t middle = low + (high - low) / 2;
-    const auto end = std::upper_bound(begin, values.end(), std::bit_cast<double>(middle));
-    if (comm.sum(end - values.begin()) >= k)
-      high = middle;
-    else
-      low = middle + 1;
-  }
-  return std::bit_cast<double>(low);
+  return kth_smallest(0, std::numeric_limits<double>::infinity(), k, [&](double bound) {
+    return comm.sum(std::upper_bound(begin, values.end(), bound) - values.begin());
+  });
 }
 
 }  // namespace quadloop

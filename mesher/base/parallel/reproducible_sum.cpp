@@ -16,24 +16,8 @@ ReproducibleSums::ReproducibleSums(std::size_t sums, double largest, std::int64_
       parts_{std::ldexp(1, bits_)},
       units_(2 * sums, 0) {}
 
-namespace {
-
-/// Sums entry by entry over all ranks, in pieces of bounded size. *Collective.*
-std::vector<std::int64_t> sum_over(const Communicator& comm, std::span<const std::int64_t> own) {
-  constexpr std::size_t piece = std::size_t{1} << 16;
-  std::vector<std::int64_t> sums(own.size(), 0);
-  for (std::size_t begin = 0; begin < own.size(); begin += piece) {
-    const auto part = own.subspan(begin, std::min(piece, own.size() - begin));
-    const std::vector<std::int64_t> all = comm.all_gather_values(part);
-    for (std::size_t k = 0; k < all.size(); ++k) sums[begin + k % part.size()] += all[k];
-  }
-  return sums;
-}
-
-}  // namespace
-
 std::vector<double> ReproducibleSums::over(const Communicator& comm) const {
-  const std::vector<std::int64_t> units = sum_over(comm, units_);
+  const std::vector<std::int64_t> units = comm.sum(units_);
   std::vector<double> sums;
   for (std::size_t k = 0; k < units.size(); k += 2) {
     const auto high = static_cast<double>(units[k]), low = static_cast<double>(units[k + 1]);

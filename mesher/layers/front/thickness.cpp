@@ -127,11 +127,11 @@ class Fitting {
 
   /// Divides the stations among the ranks, in their order, such that sums of weights are nearly equal.
   template <class Weight>
-  StationRange share(const Weight& weight) const {
+  ItemRun share(const Weight& weight) const {
     if (sharing_ == nullptr) return {0, line_.size()};
     std::int64_t sum = 0;
     for (std::int32_t i = 0; i < line_.size(); ++i) sum += weight(i);
-    StationRange own{line_.size(), line_.size()};
+    ItemRun own{line_.size(), line_.size()};
     std::int64_t before = 0;
     const std::int64_t ranks = sharing_->size(), rank = sharing_->rank();
     for (std::int32_t i = 0; i < line_.size() && own.end == line_.size(); before += weight(i++)) {
@@ -141,7 +141,7 @@ class Fitting {
     return own;
   }
   /// The work is at stations that have moved.
-  StationRange share_of_moved() const {
+  ItemRun share_of_moved() const {
     constexpr int of_moved = 16;  // the work there, in that at others
     return share([&](std::int32_t i) { return moved_[i] ? of_moved : 1; });
   }
@@ -379,7 +379,7 @@ class Fitting {
   const WallLine& line_;
   const StationPairs& partners_;
   const Communicator* sharing_;  ///< or null
-  StationRange own_;             ///< those that this rank looks at
+  ItemRun own_;             ///< those that this rank looks at
   Vicinity vicinity_;
   std::vector<double> h_;
   std::vector<char> meets_, moved_;

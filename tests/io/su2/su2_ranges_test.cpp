@@ -18,6 +18,7 @@
 #include "io/solution_file.hpp"
 #include "io/su2/su2_file.hpp"
 #include "mesher/base/error.hpp"
+#include "tests/io/as_whole.hpp"
 #include "tests/io/read_plane.hpp"
 #include "tests/io/same_mesh.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -54,18 +55,10 @@ std::string refusal_by_ranges(const std::string& text) {
   return test::refusal_text([&] { read_su2_ranges(world(), path); });
 }
 
-/// Reads with all ranks as commands do, and as a whole on one; compares what they get.
 void expect_as_whole(const std::string& text) {
+  SCOPED_TRACE(text.substr(0, 2000));
   const TemporaryFolder folder;
-  const std::string path = folder.write("m.su2", text);
-  MeshOfFile part;
-  LoadedMesh wanted;
-  const std::string refusal = test::refusal_text([&] { part = format_named("su2")->read(world(), path); }),
-                    of_one = test::refusal_text([&] { wanted = test::read_plane<read_su2>(path); });
-  EXPECT_EQ(refusal, of_one) << text;
-  if (!refusal.empty() || !of_one.empty() || !std::holds_alternative<LoadedMesh>(part)) return;
-  const LoadedMesh whole = gathered(world(), std::get<LoadedMesh>(part));
-  if (world().is_root()) expect_same(whole, wanted);
+  test::expect_as_whole<read_su2>("su2", folder.write("m.su2", text));
 }
 
 TEST(Su2Ranges, GiveTheMeshThatIsReadAsAWhole) {
