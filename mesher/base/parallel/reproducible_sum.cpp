@@ -16,6 +16,19 @@ ReproducibleSums::ReproducibleSums(std::size_t sums, double largest, std::int64_
       parts_{std::ldexp(1, bits_)},
       units_(2 * sums, 0) {}
 
+namespace {
+
+/// The largest absolute value; not finite if any value is not. The bits of positive numbers are in the order
+/// of the numbers, and those of infinity and NaN come last.
+double largest_size(std::span<const double> values) {
+  constexpr std::uint64_t sign = std::uint64_t{1} << 63;
+  std::uint64_t largest = 0;
+  for (const double value : values) largest = std::max(largest, std::bit_cast<std::uint64_t>(value) & ~sign);
+  return std::bit_cast<double>(largest);
+}
+
+}  // namespace
+
 std::vector<double> ReproducibleSums::over(const Communicator& comm) const {
   const std::vector<std::int64_t> units = comm.sum(units_);
   std::vector<double> sums;
@@ -27,17 +40,12 @@ std::vector<double> ReproducibleSums::over(const Communicator& comm) const {
 }
 
 double reproducible_sum(const Communicator& comm, std::span<const double> values) {
-  double largest = 0;
-  bool finite = true;
-  for (const double value : values) {
-    finite = finite && std::isfinite(value);
-    largest = std::max(largest, std::abs(value));
-  }
-  if (comm.any(!finite)) return std::numeric_limits<double>::quiet_NaN();
+  double largest = largest_size(values);
+  if (comm.any(!std::isfinite(largest))) return std::numeric_limits<double>::quiet_NaN();
   largest = comm.maximum(largest);
   if (largest == 0) return 0;
   ReproducibleSums sum(1, largest, comm.sum(std::ssize(values)));
-  for (const double value : values) sum.add(0, value);
+  sum.add(0, values);
   return sum.over(comm).front();
 }
 

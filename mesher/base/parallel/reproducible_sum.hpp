@@ -23,12 +23,18 @@ class ReproducibleSums {
   /// exceeds `largest`, which must be positive. The arguments are the same on every rank.
   ReproducibleSums(std::size_t sums, double largest, std::int64_t count);
 
-  void add(std::size_t sum, double value) {
-    const double scaled = value * first_scale_ * second_scale_;
-    const auto whole = static_cast<std::int64_t>(scaled);
-    const double rest = (scaled - static_cast<double>(whole)) * parts_;
-    units_[2 * sum] += whole;
-    units_[2 * sum + 1] += static_cast<std::int64_t>(rest + std::copysign(0.5, rest));
+  void add(std::size_t sum, double value) { add(sum, std::span(&value, 1)); }
+  void add(std::size_t sum, std::span<const double> values) {
+    std::int64_t high = 0, low = 0;
+    for (const double value : values) {
+      const double scaled = value * first_scale_ * second_scale_;
+      const auto whole = static_cast<std::int64_t>(scaled);
+      const double rest = (scaled - static_cast<double>(whole)) * parts_;
+      high += whole;
+      low += static_cast<std::int64_t>(rest + std::copysign(0.5, rest));
+    }
+    units_[2 * sum] += high;
+    units_[2 * sum + 1] += low;
   }
 
   /// Returns the sums over all ranks. *Collective.*
