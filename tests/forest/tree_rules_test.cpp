@@ -312,8 +312,8 @@ TEST(TreeRules, SourcesRefineWithoutGeometry) {
   const Geometry geometry = circle_in_square(0.1);
   SizeOptions options = options_with(0.005, 0.5, 1.5);
   Box box;
-  box.include({-0.9, -0.9});
-  box.include({-0.7, -0.8});
+  box.include(Point{-0.9, -0.9});
+  box.include(Point{-0.7, -0.8});
   options.sources = {{box, 0.01},
                      {SizeSource::Disc{{-0.5, 0.5}, 0.1}, 0.02},
                      {SizeSource::Line{{0.5, 0.6}, {0.9, 0.9}}, 0.02}};
