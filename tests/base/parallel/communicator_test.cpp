@@ -17,6 +17,14 @@ namespace {
 
 using test::world;
 
+TEST(Communicator, SumsListsEntryByEntry) {
+  const std::int64_t rank = world().rank(), ranks = world().size();
+  EXPECT_EQ(world().sum(std::vector<std::int64_t>{1, rank, -rank * rank}),
+            (std::vector<std::int64_t>{ranks, ranks * (ranks - 1) / 2,
+                                       -ranks * (ranks - 1) * (2 * ranks - 1) / 6}));
+  EXPECT_TRUE(world().sum(std::vector<std::int64_t>{}).empty());
+}
+
 TEST(Communicator, ReducesOverAllRanks) {
   const std::int64_t rank = world().rank(), last = world().size() - 1;
   EXPECT_EQ(world().sum(rank), last * (last + 1) / 2);
