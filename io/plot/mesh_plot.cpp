@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <span>
 #include <utility>
@@ -139,48 +140,77 @@ class Picture {
     const ShownFields shown = shown_fields(comm_, loaded_, options_);
     add_boundary_names(comm_, mesh, window, paint.legend);
     const PlotView view(window, options_.size, paint.legend, has_bar, sheet_.size);
-    std::optional<Canvas> canvas;
-    if (comm_.is_root()) {
-      canvas.emplace(format_, view.width(), view.height(), sheet_.scale);
-      canvas->clip(view.frame());
-    }
-    draw_cells(cells, paint, shown, view, canvas ? &*canvas : nullptr);
-    std::string bytes;
-    comm_.together([&] {
-      if (canvas) bytes = finished(*canvas, view, paint);
-    });
-    return bytes;
+    const CellStream stream(comm_, mesh);
+    const FieldPainter fields(stream, cells, view, sheet_.resolution);
+    const std::vector<Layer> layers = layers_of(stream, fields, view, cells, paint, shown);
+    return drawn(layers, view, paint);
   }
 
  private:
-  static std::string finished(Canvas& canvas, const PlotView& view, const CellPaint& paint) {
+  /// A layer of the picture. *Collective.*
+  using Layer = std::function<void(const ShownStrip& strip)>;
+
+  /// The layers from the lowest one; they refer to the arguments. *Collective.*
+  std::vector<Layer> layers_of(const CellStream& stream, const FieldPainter& fields, const PlotView& view,
+                               const std::vector<std::size_t>& cells, const CellPaint& paint,
+                               const ShownFields& shown) const {
+    const auto drawing = [](auto layer) {
+      return [layer = std::move(layer)](const ShownStrip& strip) { layer.draw(strip); };
+    };
+    const bool has_field = !options_.field.empty();
+    std::vector<Layer> layers;
+    if (has_field && options_.smooth) {
+      layers.emplace_back([&](const ShownStrip& strip) { fields.shade(strip, shown.field, *paint.bar); });
+    } else {
+      layers.emplace_back(drawing(CellLayer(stream, view, cells, paint)));
+    }
+    if (options_.lines.value_or(!has_field))
+      layers.emplace_back(drawing(EdgeLayer(stream, view, cells, paint.bar ? 0.55 : 1)));
+    if (has_field && options_.contours > 0) {
+      const std::vector<double> levels = contour_levels(paint.bar->low, paint.bar->high, options_.contours);
+      layers.emplace_back([&fields, &shown, levels](const ShownStrip& strip) {
+        fields.stroke_contours(strip, shown.field, levels);
+      });
+    }
+    if (options_.streamlines > 0) {
+      const auto lines = fields.streamlines(shown.x_velocity, shown.y_velocity, options_.streamlines);
+      layers.emplace_back([lines](const ShownStrip& strip) {
+        if (strip.canvas != nullptr) stroke_streamlines(*strip.canvas, lines);
+      });
+    }
+    layers.emplace_back(
+        drawing(BoundaryLayer(gather_boundaries(comm_, loaded_.mesh), view, boundary_colour)));
+    return layers;
+  }
+
+  /// Returns the file's bytes on the root, none elsewhere. *Collective.*
+  std::string drawn(const std::vector<Layer>& layers, const PlotView& view, const CellPaint& paint) const {
+    const Strips strips(format_, view.width(), view.height(), sheet_.scale);
+    std::optional<Canvas> canvas;
+    if (comm_.is_root()) canvas.emplace(strips);
+    std::string bytes;
+    for (int i = 0; i < strips.count(); ++i) {
+      const ShownStrip strip{canvas ? &*canvas : nullptr, strips.part(i)};
+      if (canvas) canvas->clip(view.frame());
+      for (const Layer& layer : layers) layer(strip);
+      comm_.together([&] {
+        if (!canvas) return;
+        draw_beside(*canvas, view, paint);
+        if (i + 1 < strips.count())
+          canvas->next_strip();
+        else
+          bytes = canvas->finish();
+      });
+    }
+    return bytes;
+  }
+
+  /// Draws what is outside of the frame.
+  static void draw_beside(Canvas& canvas, const PlotView& view, const CellPaint& paint) {
     canvas.unclip();
     view.draw_axes(canvas, "x", "y");
     view.draw_legend(canvas, paint.legend);
     if (paint.bar) view.draw_bar(canvas, *paint.bar);
-    return canvas.finish();
-  }
-
-  /// `canvas` is that of the root. *Collective.*
-  void draw_cells(const std::vector<std::size_t>& cells, const CellPaint& paint, const ShownFields& shown,
-                  const PlotView& view, Canvas* canvas) const {
-    const bool has_field = !options_.field.empty();
-    const CellStream stream(comm_, loaded_.mesh);
-    const Mesh boundaries = gather_boundaries(comm_, loaded_.mesh);
-    MeshPainter painter(stream, boundaries, view, canvas);
-    FieldPainter fields(stream, cells, view, canvas, sheet_.resolution);
-    if (has_field && options_.smooth) {
-      fields.shade(shown.field, *paint.bar);
-    } else {
-      painter.fill(cells, paint);
-    }
-    if (options_.lines.value_or(!has_field)) painter.stroke_edges(cells, paint.bar ? 0.55 : 1);
-    if (has_field && options_.contours > 0)
-      fields.stroke_contours(shown.field, contour_levels(paint.bar->low, paint.bar->high, options_.contours));
-    if (options_.streamlines > 0)
-      fields.stroke_streamlines(shown.x_velocity, shown.y_velocity, options_.streamlines);
-    for (std::size_t i = 0; canvas != nullptr && i < boundaries.boundaries.size(); ++i)
-      painter.stroke_boundary(boundaries.boundaries[i], boundary_colour(i));
   }
 
   const Communicator& comm_;

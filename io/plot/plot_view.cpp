@@ -66,7 +66,7 @@ Box PlotView::filling(const Box& window, Point sheet, bool has_bar) {
 }
 
 std::vector<Point> PlotView::legend_places(const std::vector<LegendEntry>& legend, double& bottom) const {
-  const Canvas ruler(PlotFormat::png, 1, 1);
+  const Canvas ruler(Strips::one(PlotFormat::png, 1, 1));
   std::vector<Point> places;
   Point at{left, frame_.high.y + below_axis + 0.5 * legend_row};
   for (const LegendEntry& entry : legend) {

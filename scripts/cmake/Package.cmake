@@ -52,7 +52,7 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME quadloop)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS openmpi-bin)
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME libquadloop-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "quadloop, libopenmpi-dev, libp4est-dev, libeigen3-dev, libnlopt-cxx-dev, libcgns-dev, libhdf5-dev, \
-libcairo2-dev, libcgal-dev, libboost-dev, libtomlplusplus-dev, libfmt-dev, libspdlog-dev, libexpat1-dev, nlohmann-json3-dev, zlib1g-dev, pkg-config")
+libcairo2-dev, libpng-dev, libcgal-dev, libboost-dev, libtomlplusplus-dev, libfmt-dev, libspdlog-dev, libexpat1-dev, nlohmann-json3-dev, zlib1g-dev, pkg-config")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-quadloop)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "quadloop, python3 (>= 3.11), python3 (<< 3.12), python3-numpy")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-mpi4py, python3-scipy")

@@ -83,7 +83,7 @@ class ChartPicture {
   ChartPicture(const Chart& chart, Point size, double scale, PlotFormat format)
       : chart_{chart},
         size_{size},
-        canvas_(format, size.x, size.y, scale),
+        canvas_(Strips::one(format, size.x, size.y, scale)),
         names_{names_in(chart)},
         x_(chart.x, values_of(&Point::x, chart.panels)) {}
 

@@ -4,11 +4,14 @@
 #include <cairo-svg.h>
 #include <cairo.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <new>
 #include <numbers>
+#include <optional>
 
+#include "io/plot/canvas/png_rows.hpp"
 #include "mesher/base/error.hpp"
 
 namespace quadloop::io {
@@ -16,6 +19,7 @@ namespace quadloop::io {
 namespace {
 
 constexpr double font_size = 16;
+constexpr int pixels_of_strip = 1 << 19;
 
 struct DestroySurface {
   void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
@@ -42,12 +46,10 @@ void require_success(cairo_status_t status) {
     throw Fault(std::string("the picture could not be drawn: ") + cairo_status_to_string(status));
 }
 
-Surface make_surface(PlotFormat format, double width, double height, std::string& bytes) {
+/// Of a sheet without pixels.
+Surface make_vector_surface(PlotFormat format, double width, double height, std::string& bytes) {
   if (format == PlotFormat::svg)
     return Surface(cairo_svg_surface_create_for_stream(append, &bytes, width, height));
-  if (format == PlotFormat::png)
-    return Surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(std::lround(width)),
-                                              static_cast<int>(std::lround(height))));
   Surface surface(cairo_pdf_surface_create_for_stream(append, &bytes, width, height));
   cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATE_DATE,
                                  "2000-01-01T00:00:00Z");  // for reproducible bytes
@@ -75,26 +77,84 @@ std::string printable(std::string text) {
 
 }  // namespace
 
+Strips Strips::one(PlotFormat format, double width, double height, double scale) {
+  Strips strips;
+  strips.format_ = format;
+  strips.size_ = {width, height};
+  strips.scale_ = scale;
+  strips.width_ = std::max(1, static_cast<int>(std::lround(scale * width)));
+  strips.height_ = std::max(1, static_cast<int>(std::lround(scale * height)));
+  strips.rows_ = strips.height_;
+  return strips;
+}
+
+Strips::Strips(PlotFormat format, double width, double height, double scale)
+    : Strips{one(format, width, height, scale)} {
+  if (format == PlotFormat::png) rows_ = std::clamp(pixels_of_strip / width_, 1, height_);
+}
+
+Box Strips::part(int strip) const {
+  if (count() == 1) return {{0, 0}, size_};
+  const double top = strip * rows_, bottom = std::min((strip + 1) * rows_, height_);
+  return {{0, top / scale_}, {size_.x, bottom / scale_}};
+}
+
 struct Canvas::Cairo {
-  std::string bytes;  ///< declared before the surface, which writes to it until its end
-  PlotFormat format = PlotFormat::png;
+  Strips strips;
+  int strip = 0;
+  std::string bytes;            ///< declared before the surface, which writes to it until its end
+  std::optional<PngRows> rows;  ///< if the file has pixels
   Surface surface;
   Context context;
 };
 
-Canvas::Canvas(PlotFormat format, double width, double height, double scale)
-    : cairo_{std::make_unique<Cairo>()} {
-  cairo_->format = format;
-  cairo_->surface = make_surface(format, scale * width, scale * height, cairo_->bytes);
+Canvas::Canvas(const Strips& strips) : cairo_{std::make_unique<Cairo>()} {
+  cairo_->strips = strips;
+  if (strips.format_ == PlotFormat::png) {
+    cairo_->rows.emplace(strips.width_, strips.height_);
+    cairo_->surface.reset(cairo_image_surface_create(CAIRO_FORMAT_RGB24, strips.width_, strips.rows_));
+  } else {
+    cairo_->surface = make_vector_surface(strips.format_, strips.scale_ * strips.size_.x,
+                                          strips.scale_ * strips.size_.y, cairo_->bytes);
+  }
   require_success(cairo_surface_status(cairo_->surface.get()));
   cairo_->context.reset(cairo_create(cairo_->surface.get()));
+  begin_strip();
+}
+
+/// Makes the surface white, and gives it the coordinates of the sheet.
+void Canvas::begin_strip() {
   cairo_t* context = cairo_->context.get();
-  cairo_scale(context, scale, scale);
+  const Strips& strips = cairo_->strips;
+  cairo_identity_matrix(context);
+  cairo_translate(context, 0, -cairo_->strip * strips.rows_);
+  cairo_scale(context, strips.scale_, strips.scale_);
   cairo_set_source_rgb(context, 1, 1, 1);
   cairo_paint(context);
   cairo_set_line_cap(context, CAIRO_LINE_CAP_ROUND);
   cairo_set_line_join(context, CAIRO_LINE_JOIN_ROUND);
   choose_font(context);
+}
+
+/// Hands the pixels of this strip to the file.
+void Canvas::keep_rows() {
+  cairo_surface_t* surface = cairo_->surface.get();
+  const Strips& strips = cairo_->strips;
+  cairo_surface_flush(surface);
+  const unsigned char* const data = cairo_image_surface_get_data(surface);
+  const int stride = cairo_image_surface_get_stride(surface);
+  const int rows = std::min(strips.rows_, strips.height_ - cairo_->strip * strips.rows_);
+  for (int y = 0; y < rows; ++y) {
+    const auto* row = reinterpret_cast<const std::uint32_t*>(data + static_cast<std::ptrdiff_t>(y) * stride);
+    cairo_->rows->append({row, static_cast<std::size_t>(strips.width_)});
+  }
+}
+
+void Canvas::next_strip() {
+  require_success(cairo_status(cairo_->context.get()));
+  keep_rows();
+  ++cairo_->strip;
+  begin_strip();
 }
 
 Canvas::~Canvas() = default;
@@ -196,11 +256,10 @@ double Canvas::text_width(const std::string& text) const {
 std::string Canvas::finish() {
   require_success(cairo_status(cairo_->context.get()));
   cairo_->context.reset();
-  if (cairo_->format == PlotFormat::png)
-    require_success(cairo_surface_write_to_png_stream(cairo_->surface.get(), append, &cairo_->bytes));
+  if (cairo_->rows) keep_rows();
   cairo_surface_finish(cairo_->surface.get());
   require_success(cairo_surface_status(cairo_->surface.get()));
-  return std::move(cairo_->bytes);
+  return cairo_->rows ? cairo_->rows->finish() : std::move(cairo_->bytes);
 }
 
 }  // namespace quadloop::io

@@ -30,13 +30,37 @@ struct Image {
   std::vector<std::uint32_t> pixels;
 };
 
-/// A white sheet in pixels, with the origin at its top left and y downwards. Added lines and polygons form
-/// one path until it is filled or stroked. Coordinates must stay within about 10^6 pixels. The same calls
-/// give the same bytes.
-class Canvas {
+/// The strips of a sheet, from its top: parts that are drawn one after the other, so that the pixels of only
+/// one of them are in memory. SVG and PDF have no pixels, and one strip.
+class Strips {
  public:
   /// `scale`: pixels of the file (SVG and PDF: points) per pixel of the sheet.
-  Canvas(PlotFormat format, double width, double height, double scale = 1);
+  Strips(PlotFormat format, double width, double height, double scale);
+  /// The same sheet in one strip.
+  static Strips one(PlotFormat format, double width, double height, double scale = 1);
+
+  int count() const { return (height_ + rows_ - 1) / rows_; }
+  /// The part of the sheet in a strip.
+  Box part(int strip) const;
+
+ private:
+  friend class Canvas;
+  Strips() = default;
+
+  PlotFormat format_ = PlotFormat::png;
+  Point size_;  ///< of the sheet
+  double scale_ = 1;
+  int width_ = 1, height_ = 1;  ///< in pixels of the file
+  int rows_ = 1;                ///< of a strip, in pixels of the file
+};
+
+/// A white sheet in pixels, with the origin at its top left and y downwards. Added lines and polygons form
+/// one path until it is filled or stroked. Coordinates must stay within about 10^6 pixels. The same calls
+/// give the same bytes. Each strip of the sheet gets all calls that change it, and next_strip() leads to the
+/// following one.
+class Canvas {
+ public:
+  explicit Canvas(const Strips& strips);
   ~Canvas();
   Canvas(const Canvas&) = delete;
   Canvas& operator=(const Canvas&) = delete;
@@ -63,10 +87,17 @@ class Canvas {
   /// Scales the image to the box.
   void paint(const Box& box, const Image& image);
 
-  /// Returns the picture's bytes; the canvas must not be used afterwards. Throws a Fault if Cairo failed.
+  /// Throws a Fault if Cairo failed.
+  void next_strip();
+
+  /// Returns the picture's bytes after the last strip; the canvas must not be used afterwards. Throws a Fault
+  /// if Cairo failed.
   std::string finish();
 
  private:
+  void begin_strip();
+  void keep_rows();
+
   struct Cairo;
   std::unique_ptr<Cairo> cairo_;
 };

@@ -233,19 +233,5 @@ TEST(MeshPlot, WindowsWithoutCellsAreRefused) {
   }
 }
 
-TEST(Canvas, TextThatIsNoUtf8IsShownAsFarAsItIsAscii) {
-  Canvas canvas(PlotFormat::png, 100, 100);
-  EXPECT_EQ(canvas.text_width("a\xff"
-                              "b"),
-            canvas.text_width("a?b"));
-  EXPECT_GT(canvas.text_width("wide"), canvas.text_width("w"));
-  EXPECT_EQ(canvas.text_width(""), 0);
-  EXPECT_NO_THROW(canvas.text({50, 50},
-                              "a\xff"
-                              "b",
-                              TextAlign::centre));
-  EXPECT_FALSE(canvas.finish().empty());
-}
-
 }  // namespace
 }  // namespace quadloop::io

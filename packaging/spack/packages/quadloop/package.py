@@ -36,6 +36,7 @@ class Quadloop(CMakePackage):
     depends_on("zlib-api")
     depends_on("cli11@2.2:")
     depends_on("cairo +png +pdf +svg")
+    depends_on("libpng")
     depends_on("gdal@3.6:")
 
     extends("python@3.11:", when="+python")
