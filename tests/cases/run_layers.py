@@ -68,7 +68,7 @@ MISSED = {
     "naca0012_blunt": {"full": 99.39},
     "rae2822": {"tilt_far": 10.3},
     "three_element": {"widths_most": 2.05},
-    "30p30n": {"outer_area": 4.5},
+    "30p30n": {"outer_area": 4.75},  # turned: triangles in a concave corner, where columns converge
     "plate_slanted": {"outer_area": 5.2},  # where it is turned
 }
 
