@@ -1,5 +1,6 @@
 #include "smoother/level_transitions/square_lines.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace quadloop::smoother {
@@ -23,7 +24,8 @@ Point into_squares(unsigned quadrants) {
   }
 }
 
-bool near(double a, double b) { return std::abs(a - b) <= rounding; }
+/// Whether two lengths are equal up to rounding, for squares with this edge.
+bool near(double a, double b, double edge = 1) { return std::abs(a - b) <= rounding * edge; }
 
 /// The quadrant and edge length of a square with sides along the axes and corners p and `opposite`; `unfit`
 /// if the cell is no such square.
@@ -32,13 +34,14 @@ struct SquareCorner {
   double edge = 0;
 };
 SquareCorner square_at(Point p, Point next, Point opposite, Point previous) {
-  const Point u = next - p, v = previous - p, d = opposite - p;
+  const Point d = opposite - p;
   const double edge = std::abs(d.x);
-  const bool along_axes = edge > 0 && near(std::abs(d.y) / edge, 1) && near(length(u) / edge, 1) &&
-                          near(length(v) / edge, 1) &&
-                          near(std::min(std::abs(u.x), std::abs(u.y)) / edge, 0) &&
-                          near(std::min(std::abs(v.x), std::abs(v.y)) / edge, 0);
-  if (!along_axes) return {};
+  const auto is_side = [&](Point side) {
+    const auto [least, most] = std::minmax({std::abs(side.x), std::abs(side.y)});
+    return near(most, edge, edge) && near(least, 0, edge);
+  };
+  if (!(edge > 0) || !near(std::abs(d.y), edge, edge) || !is_side(next - p) || !is_side(previous - p))
+    return {};
   if (d.y > 0) return {d.x > 0 ? 0U : 1U, edge};
   return {d.x < 0 ? 2U : 3U, edge};
 }
@@ -68,7 +71,8 @@ void SquareLines::look_at_squares(const std::array<NodeId, 4>& nodes) {
     const SquareCorner square = square_at(mesh_.point(nodes[k]), mesh_.point(nodes[(k + 1) % 4]),
                                           mesh_.point(nodes[(k + 2) % 4]), mesh_.point(nodes[(k + 3) % 4]));
     Surroundings& s = round_[nodes[k]];
-    const bool fits = square.quadrant != unfit && (s.quadrants == 0 || near(s.edge / square.edge, 1));
+    const bool fits =
+        square.quadrant != unfit && (s.quadrants == 0 || near(s.edge, square.edge, square.edge));
     s.quadrants |= fits ? 1U << square.quadrant : unfit;
     s.edge = square.edge;
   }

@@ -39,7 +39,12 @@ class Star {
   static constexpr int batch = StarKernels::batch;
   using Batch = Eigen::Array<double, batch, 1>;
 
-  void clear() { corners_.clear(); }
+  /// Sets the corners: `corner(c)` for c = 0, 1, ... below `count`.
+  template <class CornerOf>
+  void assign(std::size_t count, const CornerOf& corner) {
+    corners_.resize(count);
+    for (std::size_t c = 0; c < count; ++c) corners_[c] = corner(c);
+  }
   void add(const StarCorner& corner) { corners_.push_back(corner); }
   const std::vector<StarCorner>& corners() const { return corners_; }
   bool empty() const { return corners_.empty(); }

@@ -199,27 +199,33 @@ bool BoundarySlide::may_slide(const Bend& bend, const Places& places) const {
 bool BoundarySlide::keeps_outline(const Rail& rail, const Places& places, const OutlinePlace& moved,
                                   Point p) {
   const Bend bend = bend_of(rail);
+  if (strays(bend, places, moved, p)) return false;
   const OutlinePath::Segments near = outline_->segments_near(box_round(bend, p));
-  if (!keeps_outline(bend, places, moved, p, near) || !partner_keeps_outline(bend, p)) return false;
+  if (!keeps_clear(bend, places, moved, p, near) || !partner_keeps_outline(bend, p)) return false;
   remember(rail.node, p, rail.boundary, near);
   return true;
 }
 
-/// For a move of the node to p, at the place `moved`; `near`: the segments near box_round().
-bool BoundarySlide::keeps_outline(const Bend& bend, const Places& places, const OutlinePlace& moved, Point p,
-                                  const OutlinePath::Segments& near) const {
-  const Point a = bend.before, b = bend.after, now = bend.at;
+/// Whether the chords deviate from their part of the geometry by more than now and than the tolerance, with
+/// the node at p, at the place `moved`.
+bool BoundarySlide::strays(const Bend& bend, const Places& places, const OutlinePlace& moved, Point p) const {
+  const Point a = bend.before, b = bend.after;
   const auto deviation = [&](const OutlinePlace& at, Point middle) {
     return std::max(outline_->deviation(places.before, a, at, middle),
                     outline_->deviation(at, middle, places.after, b));
   };
-  const double strays = deviation(moved, p);
-  if (strays > stray_share * std::min(length(p - a), length(b - p)) && strays > deviation(places.at, now))
-    return false;
+  const double then = deviation(moved, p);
+  return then > stray_share * std::min(length(p - a), length(b - p)) && then > deviation(places.at, bend.at);
+}
+
+/// Whether the move meets no other part of the geometry; `near`: the segments near box_round().
+bool BoundarySlide::keeps_clear(const Bend& bend, const Places& places, const OutlinePlace& moved, Point p,
+                                const OutlinePath::Segments& near) const {
+  const Point a = bend.before, b = bend.after;
   const OutlinePath::Chord before{places.before, moved, a, p}, after{moved, places.after, p, b},
       both{places.before, places.after, a, b};
   return outline_->met_elsewhere(before, near).empty() && outline_->met_elsewhere(after, near).empty() &&
-         !outline_->sweeps_over(both, now, near) && !outline_->sweeps_over(both, p, near);
+         !outline_->sweeps_over(both, bend.at, near) && !outline_->sweeps_over(both, p, near);
 }
 
 bool BoundarySlide::partner_keeps_outline(const Bend& bend, Point p) const {
@@ -230,7 +236,8 @@ bool BoundarySlide::partner_keeps_outline(const Bend& bend, Point p) const {
   const OutlinePath::Segments near = outline_->segments_near(box_round(partner, image));
   const OutlinePlace moved = outline_->locate(image, boundaries_[partner.boundary].name, near);
   const Places places = locate(partner);
-  return places.valid() && moved.valid() && keeps_outline(partner, places, moved, image, near);
+  return places.valid() && moved.valid() && !strays(partner, places, moved, image) &&
+         keeps_clear(partner, places, moved, image, near);
 }
 
 /// `places` are used if the boundary is on the geometry.

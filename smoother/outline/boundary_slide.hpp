@@ -111,8 +111,9 @@ class BoundarySlide {
   double unevenness(const Rail& rail, Point p) const;
   bool keeps_even(const Rail& rail, Point to) const;
   bool keeps_outline(const Rail& rail, const Places& places, const OutlinePlace& moved, Point p);
-  bool keeps_outline(const Bend& bend, const Places& places, const OutlinePlace& moved, Point p,
-                     const OutlinePath::Segments& near) const;
+  bool strays(const Bend& bend, const Places& places, const OutlinePlace& moved, Point p) const;
+  bool keeps_clear(const Bend& bend, const Places& places, const OutlinePlace& moved, Point p,
+                   const OutlinePath::Segments& near) const;
   bool partner_keeps_outline(const Bend& bend, Point p) const;
 
   const HaloMesh& mesh_;

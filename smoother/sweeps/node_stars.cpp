@@ -174,11 +174,12 @@ void NodeStars::fetch_points_ahead(std::span<const std::int32_t> order, std::siz
 }
 
 void NodeStars::gather(std::size_t i, Star& star) const {
-  star.clear();
-  for (std::size_t k = starts_[i]; k < starts_[i + 1]; ++k) {
-    const SeenTarget& should = seen(k);
-    star.add({mesh_.point(corners_[k].q), mesh_.point(corners_[k].r), should.target, should.angle});
-  }
+  const std::size_t begin = starts_[i];
+  star.assign(starts_[i + 1] - begin, [&](std::size_t c) {
+    const SeenTarget& should = seen(begin + c);
+    const Corner& corner = corners_[begin + c];
+    return StarCorner{mesh_.point(corner.q), mesh_.point(corner.r), should.target, should.angle};
+  });
 }
 
 }  // namespace quadloop::smoother

@@ -11,7 +11,9 @@ inline void grow(const HaloMesh& mesh, NodeFlags& flags, int rings) {
     mesh.exchange().update(flags);
     const NodeFlags before = flags;
     mesh.for_each_cell([&](const auto& nodes) {
-      if (any_flagged(before, nodes)) flag_all(nodes, flags);
+      char any = 0;
+      for (const NodeId node : nodes) any |= before[node];  // no branches, as flags are unpredictable
+      for (const NodeId node : nodes) flags[node] |= any;
     });
   }
   mesh.exchange().update(flags);

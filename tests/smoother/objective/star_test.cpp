@@ -269,10 +269,14 @@ TEST(Star, IsValidWhereAllCornersAreSound) {
   EXPECT_GT(invalid, 50);
 }
 
-TEST(Star, ClearLeavesNothing) {
-  Star star = test::quad_patch();
-  EXPECT_EQ(star.corners().size(), 12U);
-  star.clear();
+TEST(Star, NewCornersReplaceTheOldOnes) {
+  const Star patch = test::quad_patch();
+  Star star = patch;
+  ASSERT_EQ(star.corners().size(), 12U);
+  star.assign(2, [&](std::size_t c) { return patch.corners()[10 + c]; });
+  ASSERT_EQ(star.corners().size(), 2U);
+  EXPECT_EQ(star.corners()[1].q, patch.corners()[11].q);
+  star.assign(0, [&](std::size_t c) { return patch.corners()[c]; });
   EXPECT_TRUE(star.empty());
 }
 
