@@ -56,8 +56,8 @@ class Strips {
 
 /// A white sheet in pixels, with the origin at its top left and y downwards. Added lines and polygons form
 /// one path until it is filled or stroked. Coordinates must stay within about 10^6 pixels. The same calls
-/// give the same bytes. Each strip of the sheet gets all calls that change it, and next_strip() leads to the
-/// following one.
+/// give the same bytes. Every strip must be drawn with all calls that touch it; next_strip() begins the next
+/// one.
 class Canvas {
  public:
   explicit Canvas(const Strips& strips);

@@ -11,6 +11,8 @@
 namespace quadloop::io {
 
 struct PngRows::Writer {
+  ~Writer();
+
   png_structp png = nullptr;
   png_infop info = nullptr;
   std::string bytes;
@@ -44,15 +46,14 @@ void call_png(png_structp png, const Call& call) {
 
 }  // namespace
 
+PngRows::Writer::~Writer() { png_destroy_write_struct(&png, &info); }
+
 PngRows::PngRows(int width, int height) : writer_{std::make_unique<Writer>()} {
   Writer& w = *writer_;
   w.row.resize(3 * static_cast<std::size_t>(width));
   w.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, on_error, on_warning);
   if (w.png != nullptr) w.info = png_create_info_struct(w.png);
-  if (w.info == nullptr) {
-    png_destroy_write_struct(&w.png, nullptr);
-    throw std::bad_alloc();
-  }
+  if (w.info == nullptr) throw std::bad_alloc();
   call_png(w.png, [&] {
     png_set_write_fn(w.png, &w.bytes, append_bytes, no_flush);
     png_set_IHDR(w.png, w.info, width, height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
@@ -61,7 +62,7 @@ PngRows::PngRows(int width, int height) : writer_{std::make_unique<Writer>()} {
   });
 }
 
-PngRows::~PngRows() { png_destroy_write_struct(&writer_->png, &writer_->info); }
+PngRows::~PngRows() = default;
 
 void PngRows::append(std::span<const std::uint32_t> pixels) {
   Writer& w = *writer_;

@@ -90,6 +90,7 @@ std::string WakeRoom::name_of(const Nearest& nearest) const {
 }
 
 PlacedLine WakeRoom::with_room(const PlacedLine& wake) const {
+  if (!keeps_clear(wake)) return wake;
   constexpr double least_share = 0.3, step = 0.25, shortest = 2;
   const double whole = length_of(wake.path),
                thickness = std::min(layers_thickness(wake.layers), thickness_at_root(wake)),

@@ -117,5 +117,18 @@ TEST(WakeRoom, AWakeThatKeepsItsCourseHasNoLimits) {
   EXPECT_EQ(followed.front, fixed.front) << "with room enough both are the same";
 }
 
+/// A line that begins at no wall has no edge: a sanitized program ends if it is looked up.
+TEST(WakeRoom, ALineInTheFlowBesideAWakeKeepsItsLength) {
+  const Geometry g = two_bodies(4, 3, {});
+  LayerLine line;
+  line.path = {{4, -3}, {6, -3}};
+  line.spacing = 0.2;
+  line.layers = test::equal_layers(0.2, 4);
+  const std::vector<LayerStrip> beside = layer_front(g, {}, {wake_of_flow(), line}).strips;
+  ASSERT_EQ(beside.size(), 2U);
+  EXPECT_FALSE(beside[1].shortened);
+  EXPECT_EQ(beside[1].front, layer_front(g, {}, {line}).strips[0].front);
+}
+
 }  // namespace
 }  // namespace quadloop
