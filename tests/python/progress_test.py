@@ -66,7 +66,7 @@ def test_an_exception_is_raised_on_its_rank():
 
 def test_an_interrupt_takes_effect_within_the_call():
     signal.signal(signal.SIGINT, signal.default_int_handler)
-    many = CASE.changed(spacing={"max": 0.003})
+    many = CASE.changed(spacing={"max": 0.001})
     completed = []
 
     def interrupt():
