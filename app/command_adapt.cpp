@@ -160,11 +160,10 @@ void run_adapt(const CommandContext& context, const AdaptArguments& arguments) {
   std::optional<AdaptiveInput> input;
   std::optional<FormerMesh> former;
   if (!arguments.from.empty()) former = find_former_mesh(comm, arguments.from);
-  comm.together([&] {
-    CaseArguments of_case{arguments.case_path, arguments.assignments, arguments.geometry, {}};
-    if (former) of_case.saved = former->tree.attributes;
-    input = adaptive_input(load_case(of_case, context.record.noted), of_case);
-  });
+  CaseArguments of_case{arguments.case_path, arguments.assignments, arguments.geometry, {}};
+  if (former) of_case.saved = former->tree.attributes;
+  CaseInput loaded = load_case(comm, of_case, context.record.noted);
+  comm.together([&] { input = adaptive_input(std::move(loaded), of_case); });
   adapt::AdaptiveCase& adaptive = input->adaptive;
   if (arguments.cycles) adaptive.adapt.cycles = *arguments.cycles;
   adaptive.mesh.mesh.limit = mesh_limit(comm, arguments.max_cells);

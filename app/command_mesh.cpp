@@ -54,13 +54,17 @@ void require_prefix(const std::string& prefix) {
     throw UsageError("-o " + prefix + ": give the prefix without " + suffix + ", which is added");
 }
 
-Prepared prepare(const MeshArguments& arguments, const std::optional<TreeRecord>& saved, Warnings& warnings) {
+CaseInput load(const Communicator& comm, const MeshArguments& arguments,
+               const std::optional<TreeRecord>& saved, Warnings& warnings) {
   require_prefix(arguments.prefix);
-  Prepared prepared;
   CaseArguments of_case{arguments.case_path, arguments.assignments, {}, {}};
   if (!arguments.type.empty()) of_case.assignments.push_back("mesh.type=\"" + arguments.type + "\"");
   if (saved) of_case.saved = saved->attributes;
-  prepared.input = load_case(of_case, warnings);
+  return load_case(comm, of_case, warnings);
+}
+
+Prepared prepare(CaseInput input, const MeshArguments& arguments, Warnings& warnings) {
+  Prepared prepared{std::move(input), {}, {}};
   Settings& settings = prepared.input.settings;
   if (!arguments.prefix.empty()) settings.output_prefix = arguments.prefix;
   std::erase_if(settings.formats, [&](const std::string& format) {
@@ -166,16 +170,16 @@ void report_estimate(const CommandContext& context, const Prepared& prepared, co
   if (context.shows_table()) std::cout << statistics.table(24) << "  nothing was written\n";
 }
 
-/// Reads on every rank (files are small compared with a mesh, and errors are then the same everywhere),
-/// generates the mesh, writes. Warnings are shown at the end, or before an error.
+/// Reads, generates the mesh, writes. Warnings are shown at the end, or before an error.
 void run_mesh(const CommandContext& context, const MeshArguments& arguments) {
   const Communicator& comm = context.comm;
   StageTimes times;
   times.begin("read");
   std::optional<TreeRecord> saved;
   if (!arguments.tree.empty()) saved = io::read_tree(comm, arguments.tree);
+  CaseInput loaded = load(comm, arguments, saved, context.record.noted);
   Prepared prepared;
-  comm.together([&] { prepared = prepare(arguments, saved, context.record.noted); });
+  comm.together([&] { prepared = prepare(std::move(loaded), arguments, context.record.noted); });
   MeshInput& input = *prepared.input.mesh;
   input.mesh.limit = mesh_limit(comm, arguments.max_cells);
   const DemandedSplits demanded(comm,

@@ -163,10 +163,10 @@ RemeshProblem load(const Communicator& comm, const RemeshArguments& arguments, W
   }
   RemeshProblem problem;
   problem.tree = io::read_tree(comm, arguments.tree);
+  problem.input = load_case(
+      comm, {arguments.case_path, arguments.assignments, arguments.geometry, problem.tree.attributes},
+      warnings);
   comm.together([&] {
-    const TreeAttributes& tree = problem.tree.attributes;
-    problem.input =
-        load_case({arguments.case_path, arguments.assignments, arguments.geometry, tree}, warnings);
     const Settings& settings = problem.input.settings;
     const std::string prefix = arguments.prefix.empty() ? settings.output_prefix : arguments.prefix;
     for (const std::string& format : settings.formats) problem.files.push_back(prefix + "." + format);

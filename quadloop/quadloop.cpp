@@ -66,7 +66,7 @@ progress::Observer observer_of(const ProgressCallback& callback, const std::func
 
 Case::Case(const Communicator& comm, const CaseSource& source, const std::vector<std::string>& assignments) {
   auto parts = std::make_shared<CaseParts>(CaseParts{{}, {source, assignments, {}, {}}, {}});
-  comm.together([&] { parts->input = load_case(parts->arguments, parts->warnings); });
+  parts->input = load_case(comm, parts->arguments, parts->warnings);
   parts->input.mesh->mesh.limit = mesh_limit(comm, {});
   parts_ = std::move(parts);
 }

@@ -124,40 +124,56 @@ Geometry::Geometry(std::vector<Boundary> boundaries, std::vector<Point> points,
       points_{std::move(points)},
       loop_starts_{std::move(loop_starts)},
       segment_boundary_{std::move(segment_boundary)},
-      curves_{std::move(curves)},
-      blocks_{std::move(blocks)} {
+      block_names_{std::move(blocks.names)},
+      block_of_loop_{std::move(blocks.of_loop)},
+      returns_{std::move(blocks.returns)} {
   QUADLOOP_REQUIRE(segment_boundary_.size() == points_.size(), "a geometry has one segment for each vertex",
                    segment_boundary_.size(), points_.size());
-  QUADLOOP_REQUIRE(curves_.empty() || curves_.size() == points_.size(), "each segment has one shape",
-                   curves_.size(), points_.size());
-  QUADLOOP_REQUIRE(!has_blocks() || std::ssize(blocks_.of_loop) == loop_count(), "each loop has one block",
-                   blocks_.of_loop.size(), loop_count());
-  if (std::ranges::all_of(curves_, &Curve::straight)) curves_.clear();
-  flags_.resize(points_.size());
-  for (std::int32_t loop = 0; loop < loop_count(); ++loop) {
-    const std::int32_t begin = loop_start(loop), end = loop_start(loop + 1);
-    flags_[begin] |= is_first;
-    flags_[end - 1] |= is_last;
-  }
+  QUADLOOP_REQUIRE(curves.empty() || curves.size() == points_.size(), "each segment has one shape",
+                   curves.size(), points_.size());
+  QUADLOOP_REQUIRE(!has_blocks() || std::ssize(block_of_loop_) == loop_count(), "each loop has one block",
+                   block_of_loop_.size(), loop_count());
+  if (!std::ranges::all_of(curves, &Curve::straight)) curves_ = CurveTable(curves);
   for (const Point p : points_) box_.include(p);
-  kept_.resize(points_.size());
+  mark_loops();
+  find_twins();
+  mark_vertices();
+  shorten_spacing_between_corners();
+}
+
+void Geometry::mark_loops() {
+  std::vector<std::uint8_t> flags(points_.size());
+  for (std::int32_t loop = 0; loop < loop_count(); ++loop) {
+    flags[loop_start(loop)] |= is_first;
+    flags[loop_start(loop + 1) - 1] |= is_last;
+  }
+  flags_ = std::move(flags);
+}
+
+struct Geometry::VertexMarks {
+  std::vector<char> kept;
+  std::vector<std::uint8_t> flags;
+};
+
+void Geometry::mark_vertices() {
+  VertexMarks marks{std::vector<char>(points_.size()), {flags_.begin(), flags_.end()}};
   const std::vector<TurnLimit> corners = corner_limits(boundaries_);
   const TurnLimit straight(straight_degrees);
   for (std::int32_t v = 0; v < size(); ++v) {
     const Point in = direction_into(v), out = direction_out_of(v);
     const BoundaryId before = boundary_of(previous(v)), after = boundary_of(v);
-    kept_[v] = before != after || corners[after.value()].exceeded_by(in, out);
+    marks.kept[v] = before != after || corners[after.value()].exceeded_by(in, out);
     const bool curved = is_curved(previous(v)) || is_curved(v);
-    if (before == after && !curved && straight.undercut_by(in, out)) flags_[v] |= is_straight;
+    if (before == after && !curved && straight.undercut_by(in, out)) marks.flags[v] |= is_straight;
   }
-  find_twins();
-  keep_touching_points();
-  shorten_spacing_between_corners();
+  keep_touching_points(marks);
+  kept_ = std::move(marks.kept);
+  flags_ = std::move(marks.flags);
 }
 
 /// Without blocks and inner lines there are none.
 void Geometry::find_twins() {
-  if (!has_blocks() && blocks_.returns.empty()) return;
+  if (!has_blocks() && !has_inner_lines()) return;
   std::map<std::pair<Point, Point>, std::int32_t> by_ends;
   for (std::int32_t s = 0; s < size(); ++s) by_ends.emplace(std::pair(point(s), point(next(s))), s);
   std::vector<std::int32_t> twins(points_.size(), -1);
@@ -174,18 +190,18 @@ bool Geometry::is_between_twins(std::int32_t v) const {
   return back >= 0 && back_before >= 0 && next(back) == back_before;
 }
 
-void Geometry::keep_touching_points() {
+void Geometry::keep_touching_points(VertexMarks& marks) const {
   for (std::int32_t v = 0; has_twins() && v < size(); ++v) {
-    if (is_tip(v)) kept_[v] = 1;
+    if (is_tip(v)) marks.kept[v] = 1;
   }
-  const PointTable table(points_);
+  const PointTable table(points());
   if (!table.any_twice()) return;
   for (std::int32_t v = 0; v < size(); ++v) {
     const std::int32_t first = table.find(point(v));
     if (first == v || is_between_twins(v)) continue;
     for (const std::int32_t touching : {first, v}) {  // two loops touch there, in one node
-      kept_[touching] = 1;
-      flags_[touching] &= static_cast<std::uint8_t>(~is_straight);
+      marks.kept[touching] = 1;
+      marks.flags[touching] &= static_cast<std::uint8_t>(~is_straight);
     }
   }
 }
@@ -202,15 +218,17 @@ std::optional<Geometry::Stretch> Geometry::stretch_shorter_than(double limit, st
 }
 
 void Geometry::shorten_spacing_between_corners() {
+  std::vector<double> spacing;
   for (std::int32_t v = 0; v < size(); ++v) {
     if (!kept(v)) continue;
     const std::optional<Stretch> stretch = stretch_shorter_than(boundary(boundary_of(v)).spacing, v);
     if (!stretch) continue;
-    if (spacing_.empty()) {
-      for (std::int32_t s = 0; s < size(); ++s) spacing_.push_back(spacing_of_boundary(s));
+    if (spacing.empty()) {
+      for (std::int32_t s = 0; s < size(); ++s) spacing.push_back(spacing_of_boundary(s));
     }
-    for (std::int32_t s = v; s != stretch->end; s = next(s)) spacing_[s] = stretch->length;
+    for (std::int32_t s = v; s != stretch->end; s = next(s)) spacing[s] = stretch->length;
   }
+  spacing_ = std::move(spacing);
 }
 
 double Geometry::turn_degrees(std::int32_t v) const {
@@ -235,7 +253,7 @@ Geometry Geometry::with(LocalDemands demands) const {
 double Geometry::spacing_of_boundary(std::int32_t segment) const {
   const double wanted = boundary(boundary_of(segment)).spacing;
   if (wanted > 0) return wanted;
-  if (is_curved(segment) && curves_[segment].spacing > 0) return curves_[segment].spacing;
+  if (is_curved(segment) && curves_.spacing(segment) > 0) return curves_.spacing(segment);
   return length(point(next(segment)) - point(segment));
 }
 
@@ -253,7 +271,9 @@ double Geometry::corner_spacing_of(std::int32_t v) const {
   return least;
 }
 
-std::uint64_t Geometry::digest() const {
+std::uint64_t Geometry::digest() const { return digest_ ? *digest_ : computed_digest(); }
+
+std::uint64_t Geometry::computed_digest() const {
   Digest digest;
   for (const Boundary& b : boundaries_) {
     digest.add(b.name);
@@ -270,12 +290,12 @@ std::uint64_t Geometry::digest() const {
     digest.add(p.x);
     digest.add(p.y);
   }
-  for (const Curve& curve : curves_) digest_curve(curve, digest);
+  for (std::int32_t s = 0; has_curves() && s < size(); ++s) digest_curve(curve(s), digest);
   for (const std::uint64_t start : loop_starts_) digest.add(start);
   for (const BoundaryId b : segment_boundary_) digest.add(static_cast<std::uint64_t>(b.value()));
-  for (const std::string& name : blocks_.names) digest.add(name);
-  for (const std::uint64_t block : blocks_.of_loop) digest.add(block);
-  for (const std::uint64_t returns : blocks_.returns) digest.add(returns);
+  for (const std::string& name : block_names_) digest.add(name);
+  for (const std::uint64_t block : block_of_loop_) digest.add(block);
+  for (const std::uint64_t returns : returns_) digest.add(returns);
   return digest.value();
 }
 

@@ -8,12 +8,16 @@
 #include <vector>
 
 #include "mesher/base/ids.hpp"
+#include "mesher/base/parallel/shared_array.hpp"
 #include "mesher/geometry/boundary_conditions.hpp"
 #include "mesher/geometry/curve.hpp"
+#include "mesher/geometry/curve_table.hpp"
 #include "mesher/geometry/layer_spec.hpp"
 #include "mesher/geometry/point.hpp"
 
 namespace quadloop {
+
+class Communicator;
 
 /// A polyline as read from a file: a closed loop (the first point is not repeated) or an open chain. The
 /// domain lies to its left.
@@ -57,7 +61,8 @@ struct LoopBlocks {
 };
 
 /// The geometry of the domain: simple closed loops of named boundaries that do not cross, each with the
-/// domain to its left. Replicated on all ranks. Segment v runs from vertex v to vertex next(v). A segment
+/// domain to its left. The same on all ranks, whose memory may be shared: once_per_node(). Copies cost
+/// little. Segment v runs from vertex v to vertex next(v). A segment
 /// with domain on both sides, between two blocks or of an inner line, is stored twice, once in each
 /// direction: the two are twins. So a loop runs along an inner line and back.
 class Geometry {
@@ -69,6 +74,10 @@ class Geometry {
   /// `blocks`: empty if the domain is one block.
   Geometry(std::vector<Boundary> boundaries, std::vector<Point> points, std::vector<std::int32_t> loop_starts,
            std::vector<BoundaryId> segment_boundary, std::vector<Curve> curves = {}, LoopBlocks blocks = {});
+
+  /// Returns the geometry of the first rank, the only one that gives one. The ranks of a node share the
+  /// memory of all that grows with the number of segments. *Collective.*
+  static Geometry once_per_node(const Communicator& comm, std::optional<Geometry> of_first);
 
   /// The same geometry with other requirements at single places.
   Geometry with(LocalDemands demands) const;
@@ -91,13 +100,12 @@ class Geometry {
   BoundaryId boundary_of(std::int32_t segment) const { return segment_boundary_[segment]; }
 
   /// The names of the blocks; empty if the domain is one block.
-  const std::vector<std::string>& block_names() const { return blocks_.names; }
-  bool has_blocks() const { return !blocks_.names.empty(); }
+  const std::vector<std::string>& block_names() const { return block_names_; }
+  bool has_blocks() const { return !block_names_.empty(); }
   /// Block to the left of a segment: 0 if the domain is one block.
   std::int32_t block_of(std::int32_t segment) const {
-    return has_blocks() ? blocks_.of_loop[loop_of(segment)] : 0;
+    return has_blocks() ? block_of_loop_[loop_of(segment)] : 0;
   }
-  const LoopBlocks& loop_blocks() const { return blocks_; }
   /// The segment with the same ends in the opposite direction; -1 if there is none.
   std::int32_t twin(std::int32_t segment) const { return twins_.empty() ? -1 : twins_[segment]; }
   bool has_twins() const { return !twins_.empty(); }
@@ -113,11 +121,9 @@ class Geometry {
     if (returns(segment)) return true;
     return twin(segment) >= 0 && block_of(segment) > block_of(twin(segment));
   }
-  bool has_inner_lines() const { return !blocks_.returns.empty(); }
+  bool has_inner_lines() const { return !returns_.empty(); }
   /// Whether it runs against the direction of its inner line.
-  bool returns(std::int32_t segment) const {
-    return !blocks_.returns.empty() && blocks_.returns[segment] != 0;
-  }
+  bool returns(std::int32_t segment) const { return has_inner_lines() && returns_[segment] != 0; }
   /// Whether the segment has one block on both sides.
   bool is_inner_line(std::int32_t segment) const {
     return twin(segment) >= 0 && block_of(segment) == block_of(twin(segment));
@@ -128,7 +134,7 @@ class Geometry {
   /// Whether any segment is a curve. Cells are refined and cut by the chords of the curves; then the boundary
   /// nodes move onto the curves.
   bool has_curves() const { return !curves_.empty(); }
-  bool is_curved(std::int32_t segment) const { return has_curves() && !curves_[segment].straight(); }
+  bool is_curved(std::int32_t segment) const { return has_curves() && !curves_.straight(segment); }
   Curve curve(std::int32_t segment) const { return has_curves() ? curves_[segment] : Curve{}; }
   CurvedSegment segment(std::int32_t s) const { return {point(s), curve(s), point(next(s))}; }
   /// The point of the segment above a point of its chord: above_chord().
@@ -146,7 +152,7 @@ class Geometry {
 
   std::span<const Boundary> boundaries() const { return boundaries_; }
   const Boundary& boundary(BoundaryId b) const { return boundaries_[b.value()]; }
-  std::span<const Point> points() const { return points_; }
+  std::span<const Point> points() const { return {points_.begin(), points_.end()}; }
   const Box& box() const { return box_; }
 
   /// Whether the vertex must become a mesh node: its turning angle exceeds its boundary's limit, or two
@@ -188,26 +194,34 @@ class Geometry {
   std::uint64_t digest() const;
 
  private:
+  Geometry() = default;
+  void mark_loops();
+  void mark_vertices();
   void find_twins();
-  void keep_touching_points();
+  struct VertexMarks;
+  void keep_touching_points(VertexMarks& marks) const;
   bool is_between_twins(std::int32_t v) const;
   void shorten_spacing_between_corners();
   double spacing_of_boundary(std::int32_t segment) const;
+  std::uint64_t computed_digest() const;
 
   std::vector<Boundary> boundaries_;
-  std::vector<Point> points_;
-  std::vector<std::int32_t> loop_starts_;
-  std::vector<BoundaryId> segment_boundary_;
-  std::vector<Curve> curves_;  ///< of each segment; empty: all are straight
-  LoopBlocks blocks_;
-  std::vector<std::int32_t> twins_;  ///< of each segment; empty: none has one
-  std::vector<double> spacing_;      ///< of each segment, if some differ from their boundary's
-  std::vector<double> bend_;         ///< of each vertex, if set by LocalDemands
-  std::vector<char> kept_;
+  SharedArray<Point> points_;
+  SharedArray<std::int32_t> loop_starts_;
+  SharedArray<BoundaryId> segment_boundary_;
+  CurveTable curves_;  ///< empty: all segments are straight
+  std::vector<std::string> block_names_;
+  SharedArray<std::int32_t> block_of_loop_;  ///< if there are blocks
+  SharedArray<char> returns_;                ///< of each segment; empty: there is no inner line
+  SharedArray<std::int32_t> twins_;          ///< of each segment; empty: none has one
+  SharedArray<double> spacing_;              ///< of each segment, if some differ from their boundary's
+  SharedArray<double> bend_;                 ///< of each vertex, if set by LocalDemands
+  SharedArray<char> kept_;
   // Bits of flags_: first and last vertex of a loop, straight.
   static constexpr std::uint8_t is_first = 1, is_last = 2, is_straight = 4;
-  std::vector<std::uint8_t> flags_;
+  SharedArray<std::uint8_t> flags_;
   Box box_;
+  std::optional<std::uint64_t> digest_;  ///< if known
 };
 
 /// Collects the vertices of a geometry, loop after loop.

@@ -31,8 +31,8 @@ void require_case_file(const std::string& path) {
 }
 
 /// Replaces the case's geometry files and shapes by `path`, with the placement of the first file, if there is
-/// one. It may bring its own far field.
-void replace_geometry(const std::string& path, Settings& settings, Warnings& warnings) {
+/// one.
+void replace_geometry(const std::string& path, Settings& settings) {
   GeometryInput input{path, path, {}};
   if (!settings.files.empty()) {
     input.transform = settings.files.front().transform;
@@ -40,11 +40,12 @@ void replace_geometry(const std::string& path, Settings& settings, Warnings& war
   }
   settings.files = {input};
   settings.shapes.clear();
-  if (!settings.far_field) return;
-  for (const Chain& chain : io::read_geometry(path, warnings)) {
-    if (chain.name == "farfield") settings.far_field.reset();
-    if (!settings.far_field) return;
-  }
+}
+
+/// Whether the file has a far field of its own.
+bool has_far_field(const std::string& path) {
+  Warnings told_again_below;
+  return std::ranges::count(io::read_geometry(path, told_again_below), "farfield", &Chain::name) > 0;
 }
 
 /// Returns the formats of the case in which partitions of a mesh with these blocks are written. Throws
@@ -63,28 +64,62 @@ std::vector<std::string> formats_of_parts(const std::string& case_path, const Se
   return formats;
 }
 
-}  // namespace
+/// The geometry of a case, and what follows from all of it.
+struct LoadedGeometry {
+  Geometry geometry;
+  CellSizes sizes;
+};
 
-CaseInput load_case(const CaseArguments& arguments, Warnings& warnings) {
-  if (!arguments.source.text) require_case_file(arguments.source.path);
-  CaseInput input;
+/// Reads the geometry, and adds to `input` what its files and names give. On the first rank.
+LoadedGeometry load_checked_geometry(const CaseArguments& arguments, CaseInput& input, Warnings& warnings) {
   Settings& settings = input.settings;
-  settings = read_settings(arguments.source, arguments.assignments);
-  if (!arguments.geometry.empty()) {
-    Warnings told_again_below;
-    replace_geometry(arguments.geometry, settings, told_again_below);
-  }
-  warnings.insert(warnings.end(), settings.warnings.begin(), settings.warnings.end());
+  if (!arguments.geometry.empty() && settings.far_field && has_far_field(arguments.geometry))
+    settings.far_field.reset();
   Geometry geometry = load_geometry(settings, warnings, arguments.saved, &input.extents);
   require_layers_that_doubles_hold(geometry);
   input.part_formats =
       formats_of_parts(arguments.source.path, settings, geometry.block_names().size(), warnings);
-  const MeshOptions options = mesh_options(settings, geometry);
-  if (std::optional<Geometry> merged = short_edges_merged(geometry, options.size.min, warnings))
+  const CellSizes sizes = cell_sizes(settings, geometry);
+  if (std::optional<Geometry> merged = short_edges_merged(geometry, sizes.min, warnings))
     geometry = std::move(*merged);
+  const MeshOptions options = mesh_options(settings, geometry, sizes);
   if (std::optional<std::string> warning = unit_warning(input.extents, options, geometry))
     warnings.push_back(std::move(*warning));
   for (std::string& warning : spacing_warnings(options, geometry)) warnings.push_back(std::move(warning));
+  return {std::move(geometry), sizes};
+}
+
+/// Appends the words that the first rank has appended to its list of `before` ones. *Collective.*
+void append_of_first(const Communicator& comm, std::size_t before, Warnings& words) {
+  const auto begin = words.begin() + static_cast<std::ptrdiff_t>(before);
+  const Warnings added = broadcast_words(comm, {begin, words.end()});
+  if (!comm.is_root()) words.insert(words.end(), added.begin(), added.end());
+}
+
+}  // namespace
+
+CaseInput load_case(const Communicator& comm, const CaseArguments& arguments, Warnings& warnings) {
+  CaseInput input;
+  Settings& settings = input.settings;
+  comm.together([&] {
+    if (!arguments.source.text) require_case_file(arguments.source.path);
+    settings = read_settings(arguments.source, arguments.assignments);
+    if (!arguments.geometry.empty()) replace_geometry(arguments.geometry, settings);
+  });
+  warnings.insert(warnings.end(), settings.warnings.begin(), settings.warnings.end());
+  const std::size_t known_to_all = warnings.size();
+  std::optional<Geometry> of_first;
+  std::vector<CellSizes> sizes(1);
+  comm.on_first([&] {
+    LoadedGeometry loaded = load_checked_geometry(arguments, input, warnings);
+    of_first = std::move(loaded.geometry);
+    sizes.front() = loaded.sizes;
+  });
+  append_of_first(comm, known_to_all, warnings);
+  input.part_formats = broadcast_words(comm, input.part_formats);
+  comm.broadcast(sizes);
+  Geometry geometry = Geometry::once_per_node(comm, std::move(of_first));
+  const MeshOptions options = mesh_options(settings, geometry, sizes.front());
   const std::uint64_t digest = case_digest(options, settings.lines, settings.wakes_without_layers);
   input.mesh.emplace(MeshInput{std::move(geometry), options, settings.smooth, digest, settings.lines,
                                settings.stretch, settings.wakes_without_layers});

@@ -21,13 +21,14 @@ struct CaseArguments {
 struct CaseInput {
   Settings settings;
   std::optional<MeshInput> mesh;
-  std::vector<FileExtent> extents;        ///< of the geometry files
+  std::vector<FileExtent> extents;        ///< of the geometry files; on the first rank only
   std::vector<std::string> part_formats;  ///< of partitions, if the case requests them
 };
 
-/// Reads case and geometry on the calling rank only. Throws InputError; `warnings` then contains the warnings
-/// issued before the error.
-CaseInput load_case(const CaseArguments& arguments, Warnings& warnings);
+/// Reads the case on every rank, and its geometry on the first one; the ranks of a node share its memory.
+/// Throws InputError; `warnings` then contains, on the first rank, the warnings issued before the error.
+/// *Collective.*
+CaseInput load_case(const Communicator& comm, const CaseArguments& arguments, Warnings& warnings);
 
 /// Returns the limit on mesh size: `max_cells` if given, else free memory. *Collective.*
 MeshLimit mesh_limit(const Communicator& comm, const std::optional<double>& max_cells);

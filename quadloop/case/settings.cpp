@@ -314,9 +314,7 @@ void add_block_sizes(const Settings& settings, const Geometry& geometry, MeshOpt
 
 }  // namespace
 
-MeshOptions mesh_options(const Settings& settings, const Geometry& geometry) {
-  MeshOptions options = settings.mesh;
-  add_block_sizes(settings, geometry, options);
+CellSizes cell_sizes(const Settings& settings, const Geometry& geometry) {
   const double side = std::max(geometry.box().width(), geometry.box().height());
   double smallest = side;
   for (std::int32_t s = 0; s < geometry.size(); ++s) {
@@ -324,18 +322,28 @@ MeshOptions mesh_options(const Settings& settings, const Geometry& geometry) {
     if (const double at_corner = geometry.corner_spacing_of(s); at_corner > 0)
       smallest = std::min(smallest, at_corner);
   }
-  for (const SizeSource& source : options.size.sources) smallest = std::min(smallest, source.spacing);
+  for (const SizeSource& source : settings.mesh.size.sources) smallest = std::min(smallest, source.spacing);
+  for (const BlockRule& rule : settings.outline.blocks) {
+    if (rule.spacing) smallest = std::min(smallest, *rule.spacing);
+  }
   for (const LayerLine& wake : settings.wakes_without_layers) smallest = std::min(smallest, wake.spacing);
   const double aim = cells_of_far_field(settings) * size_to_meet(settings, geometry, smallest);
   if (!settings.min) smallest = std::min(smallest, leaf_wanted_by_layers(geometry, settings.lines));
   const double max = settings.max.value_or(std::max(side / 16, settings.min.value_or(0)));
-  options.size.max = max;
   // Sizes halve, so the next one is at most as large as the requested size.
   const double floor = std::ldexp(side, -20);
-  options.size.min = settings.min.value_or(std::min(std::max(smallest / 2, floor), max / 2));
-  if (!settings.min && options.size.gap)
-    options.size.min = size_of_gaps(geometry, *options.size.gap, options.size.min, floor);
-  options.size.aim = std::clamp(aim, options.size.min, max);
+  double min = settings.min.value_or(std::min(std::max(smallest / 2, floor), max / 2));
+  if (!settings.min && settings.mesh.size.gap)
+    min = size_of_gaps(geometry, *settings.mesh.size.gap, min, floor);
+  return {min, max, std::clamp(aim, min, max)};
+}
+
+MeshOptions mesh_options(const Settings& settings, const Geometry& geometry, const CellSizes& sizes) {
+  MeshOptions options = settings.mesh;
+  add_block_sizes(settings, geometry, options);
+  options.size.min = sizes.min;
+  options.size.max = sizes.max;
+  options.size.aim = sizes.aim;
   for (const PeriodicPair& pair : options.pairs) options.size.periods.push_back(pair.translation);
   return options;
 }

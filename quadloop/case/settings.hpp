@@ -132,13 +132,24 @@ Geometry load_geometry(const Settings& settings, Warnings& warnings,
                        const std::optional<TreeAttributes>& saved = {},
                        std::vector<FileExtent>* extents = nullptr);
 
-/// Returns the options with defaults for the sizes that the case leaves open. max: 1/16 of the longer side of
-/// the geometry's bounding box (or min if larger). min: half the smallest spacing that follows from its
+/// The sizes of MeshOptions that may follow from the geometry.
+struct CellSizes {
+  double min = 0, max = 0, aim = 0;
+};
+
+/// Returns the sizes of the case, with defaults for those that it leaves open. max: 1/16 of the longer side
+/// of the geometry's bounding box (or min if larger). min: half the smallest spacing that follows from its
 /// points, boundaries, corners, layers, lines with layers, wakes or the case's sources, at least 2^-20 of
 /// that side and at most half of max. The size that the root meets: the smallest that the case specifies for
 /// a boundary, by its spacing or by twice the height of its last layer, else spacing.max, else the smallest
 /// of the sizes above; within min and max.
-MeshOptions mesh_options(const Settings& settings, const Geometry& geometry);
+CellSizes cell_sizes(const Settings& settings, const Geometry& geometry);
+
+/// Returns the options with these sizes. Blocks that request a size are those of the geometry.
+MeshOptions mesh_options(const Settings& settings, const Geometry& geometry, const CellSizes& sizes);
+inline MeshOptions mesh_options(const Settings& settings, const Geometry& geometry) {
+  return mesh_options(settings, geometry, cell_sizes(settings, geometry));
+}
 
 /// Returns a line for each boundary, sharp corner or source whose spacing is smaller than the smallest
 /// quadtree cell, for each boundary with a corner spacing but no sharp corner, and for each source outside

@@ -143,7 +143,8 @@ void keep_root(const TreeAttributes& tree, MeshInput& input) {
     if (same) return;
   }
   const Geometry& geometry = input.geometry;
-  for (std::int32_t v = 0; v < geometry.size(); ++v) {
+  const bool is_inside = root.contains(geometry.box().low) && root.contains(geometry.box().high);
+  for (std::int32_t v = 0; !is_inside && v < geometry.size(); ++v) {
     const Point p = geometry.point(v);
     if (root.contains(p)) continue;
     throw InputError(

@@ -62,6 +62,12 @@ bool has_ended(std::span<MPI_Request> requests) {
   return all != 0;
 }
 
+MPI_Comm duplicate_of(MPI_Comm comm) {
+  MPI_Comm duplicate = MPI_COMM_NULL;
+  MPI_Comm_dup(comm, &duplicate);
+  return duplicate;
+}
+
 /// Throws the same type of error on every rank.
 [[noreturn]] void rethrow(ExitStatus status, const std::string& message) {
   switch (status) {
@@ -77,8 +83,9 @@ bool has_ended(std::span<MPI_Request> requests) {
 
 }  // namespace
 
-Communicator::Communicator(MPI_Comm to_duplicate) {
-  MPI_Comm_dup(to_duplicate, &comm_);
+Communicator::Communicator(MPI_Comm to_duplicate) : Communicator(ToOwn{duplicate_of(to_duplicate)}) {}
+
+Communicator::Communicator(ToOwn to_own) : comm_{to_own.comm} {
   MPI_Comm_rank(comm_, &rank_);
   MPI_Comm_size(comm_, &size_);
 }
@@ -87,6 +94,18 @@ Communicator::~Communicator() {
   int finalised = 0;  // as when a garbage collector outlives MPI
   MPI_Finalized(&finalised);
   if (finalised == 0) MPI_Comm_free(&comm_);
+}
+
+Communicator Communicator::ranks_with(int number) const {
+  ToOwn part;
+  MPI_Comm_split(comm_, number, rank_, &part.comm);
+  return Communicator(part);
+}
+
+Communicator Communicator::ranks_of_node() const {
+  ToOwn part;
+  MPI_Comm_split_type(comm_, MPI_COMM_TYPE_SHARED, rank_, MPI_INFO_NULL, &part.comm);
+  return Communicator(part);
 }
 
 std::int64_t Communicator::sum(std::int64_t value) const {
@@ -136,11 +155,14 @@ std::vector<std::byte> Communicator::all_gather_bytes(std::span<const std::byte>
   return all;
 }
 
-void Communicator::broadcast_bytes(std::vector<std::byte>& bytes, int from) const {
-  std::uint64_t size = bytes.size();
-  MPI_Bcast(&size, 1, MPI_UINT64_T, from, comm_);
-  bytes.resize(size);
-  for_pieces(bytes.size(), largest_message, [&](std::size_t begin, int length) {
+std::size_t Communicator::broadcast_size(std::size_t size, int from) const {
+  std::uint64_t agreed = size;
+  MPI_Bcast(&agreed, 1, MPI_UINT64_T, from, comm_);
+  return agreed;
+}
+
+void Communicator::broadcast_bytes(std::span<std::byte> bytes, int from, std::size_t largest_piece) const {
+  for_pieces(bytes.size(), largest_piece, [&](std::size_t begin, int length) {
     MPI_Bcast(bytes.data() + begin, length, MPI_BYTE, from, comm_);
   });
 }
@@ -242,6 +264,19 @@ void Communicator::together(const std::function<void()>& local) const {
   std::vector<char> agreed(message.begin(), message.end());
   broadcast(agreed, static_cast<int>(failed_rank));
   rethrow(static_cast<ExitStatus>(agreed.front()), std::string(agreed.begin() + 1, agreed.end()));
+}
+
+void Communicator::on_first(const std::function<void()>& local) const {
+  together([&] {
+    std::exception_ptr error;
+    try {
+      if (is_root()) local();
+    } catch (...) {
+      error = std::current_exception();
+    }
+    patient_barrier();
+    if (error) std::rethrow_exception(error);
+  });
 }
 
 std::vector<std::string> broadcast_words(const Communicator& comm, const std::vector<std::string>& words,

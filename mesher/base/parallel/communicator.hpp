@@ -26,6 +26,11 @@ class Communicator {
   Communicator(const Communicator&) = delete;
   Communicator& operator=(const Communicator&) = delete;
 
+  /// Returns the group of those ranks that give the same number, in their order.
+  Communicator ranks_with(int number) const;
+  /// Returns the group of those ranks that are on the same node (machine) and can share memory.
+  Communicator ranks_of_node() const;
+
   int rank() const { return rank_; }
   int size() const { return size_; }
   bool is_root() const { return rank_ == 0; }
@@ -58,6 +63,10 @@ class Communicator {
   /// Sends the values of rank `from` to every rank.
   template <class T>
   void broadcast(std::vector<T>& values, int from = 0) const;
+  /// Sends the bytes of rank `from` to every rank, which has space for the same number. Any length: in pieces
+  /// of at most `largest_piece` bytes.
+  void broadcast_bytes(std::span<std::byte> bytes, int from = 0,
+                       std::size_t largest_piece = largest_message) const;
 
   struct Count {
     int rank;
@@ -92,11 +101,19 @@ class Communicator {
   /// Runs `local` on every rank. If it throws on some ranks, all ranks throw the error of the lowest of
   /// these.
   void together(const std::function<void()>& local) const;
+  /// Runs `local` on the first rank; the others wait as in patient_barrier(). If it throws, all ranks throw
+  /// the error.
+  void on_first(const std::function<void()>& local) const;
 
  private:
+  struct ToOwn {
+    MPI_Comm comm = MPI_COMM_NULL;
+  };
+  explicit Communicator(ToOwn to_own);
+
   std::vector<Count> counts_by_consensus(std::span<const Count> to) const;
   std::vector<std::byte> all_gather_bytes(std::span<const std::byte> bytes) const;
-  void broadcast_bytes(std::vector<std::byte>& bytes, int from) const;
+  std::size_t broadcast_size(std::size_t size, int from) const;
 
   MPI_Comm comm_ = MPI_COMM_NULL;
   int rank_ = 0;

@@ -28,10 +28,9 @@ std::vector<T> Communicator::all_gather_values(std::span<const T> values) const 
 
 template <class T>
 void Communicator::broadcast(std::vector<T>& values, int from) const {
-  const auto view = std::as_bytes(std::span<const T>(values));
-  std::vector<std::byte> bytes(view.begin(), view.end());
-  broadcast_bytes(bytes, from);
-  values = detail::from_bytes<T>(bytes);
+  static_assert(std::is_trivially_copyable_v<T>);
+  values.resize(broadcast_size(values.size(), from));
+  broadcast_bytes(std::as_writable_bytes(std::span(values)), from);
 }
 
 }  // namespace quadloop

@@ -100,6 +100,33 @@ TEST(Communicator, CountsGoFromAnyRankToAny) {
   }
 }
 
+TEST(Communicator, BroadcastsInPiecesOfAnySize) {
+  const int last = world().size() - 1;
+  std::vector<std::byte> sent(1000);
+  for (std::size_t i = 0; i < sent.size(); ++i) sent[i] = static_cast<std::byte>(i % 251);
+  for (const std::size_t piece : {1, 7, 500, 1000, 4096}) {
+    std::vector<std::byte> bytes = world().rank() == last ? sent : std::vector<std::byte>(sent.size());
+    world().broadcast_bytes(bytes, last, piece);
+    EXPECT_EQ(bytes, sent) << piece;
+  }
+}
+
+TEST(Communicator, HasGroupsOfItsRanks) {
+  const int rank = world().rank(), ranks = world().size();
+  const Communicator part = world().ranks_with(rank % 2);
+  EXPECT_EQ(part.rank(), rank / 2) << "in the order of the ranks";
+  EXPECT_EQ(part.size(), (ranks + 1 - rank % 2) / 2);
+  EXPECT_EQ(part.sum(rank), part.size() * (rank % 2) + part.size() * (part.size() - 1));
+  EXPECT_EQ(world().ranks_of_node().size(), ranks) << "the test runs on one machine";
+}
+
+TEST(Communicator, TheFirstRankWorksAloneAndItsErrorIsThrownOnAll) {
+  int done = 0;
+  world().on_first([&] { ++done; });
+  EXPECT_EQ(done, world().is_root() ? 1 : 0);
+  EXPECT_THROW(world().on_first([] { throw InputError("of the first rank"); }), InputError);
+}
+
 TEST(Communicator, MessagesGoInPiecesOfAnySize) {
   std::vector<std::vector<std::byte>> out(world().size()), in(world().size());
   std::vector<Communicator::Outgoing> outgoing;

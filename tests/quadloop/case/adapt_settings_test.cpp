@@ -27,7 +27,7 @@ struct Case : testing::Test {
   }
   static CaseInput loaded(const CaseArguments& arguments) {
     Warnings not_looked_at;
-    return load_case(arguments, not_looked_at);
+    return load_case(test::world(), arguments, not_looked_at);
   }
   test::InputFolder folder;
 };

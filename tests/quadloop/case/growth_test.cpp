@@ -9,6 +9,7 @@
 
 #include "quadloop/case/case_input.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/world.hpp"
 
 namespace quadloop {
 namespace {
@@ -34,7 +35,9 @@ TEST(Growth, OfFilesAndTables) {
     const std::string path = written(count);
     Warnings warnings;
     return test::processor_seconds([&] {
-      EXPECT_EQ(std::ssize(load_case({path, {}, {}, {}}, warnings).mesh->geometry.boundaries()), count + 1);
+      EXPECT_EQ(
+          std::ssize(load_case(test::world(), {path, {}, {}, {}}, warnings).mesh->geometry.boundaries()),
+          count + 1);
     });
   };
   const double of_few = seconds(250);

@@ -6,6 +6,7 @@
 #include "quadloop/case/case_input.hpp"
 #include "quadloop/case/first_height.hpp"
 #include "tests/quadloop/case/settings_fixture.hpp"
+#include "tests/support/world.hpp"
 
 namespace quadloop {
 namespace {
@@ -16,6 +17,7 @@ class LayerSettingsTest : public ::testing::Test {
 
   CaseInput load(const std::string& layers, const std::string& more = {}) {
     return load_case(
+        test::world(),
         {folder_.write("case.toml",
                        "[geometry]\nfile = \"box.geom\"\n[boundary.box]\nlayers = {" + layers + "}\n" + more),
          {},
