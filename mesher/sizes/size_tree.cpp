@@ -1,36 +1,82 @@
 #include "mesher/sizes/size_tree.hpp"
 
 #include <array>
+#include <cstddef>
 #include <utility>
+#include <vector>
 
 #include "mesher/base/ids.hpp"
 #include "mesher/sizes/quartered_square.hpp"
 
 namespace quadloop {
 
+namespace {
+
+/// The geometry in the roots, row by row.
+class RootContents {
+ public:
+  RootContents(const ShiftedOutline& outline, const TreeGrid& grid) : outline_{outline} {
+    for (int tx = 0; tx < grid.trees_x(); ++tx) columns_.push_back(grid.box_of(root_at(tx, 0)));
+    for (int ty = 0; ty < grid.trees_y(); ++ty) rows_.push_back(grid.box_of(root_at(0, ty)));
+    segments.resize(columns_.size() * rows_.size());
+    winding.resize(segments.size());
+    for (std::int32_t s = 0; s < outline.geometry().size(); ++s) add(s);
+  }
+
+  static Quadrant root_at(int tx, int ty) {
+    return {std::int64_t{tx} << Quadrant::unit_level, std::int64_t{ty} << Quadrant::unit_level, 0};
+  }
+
+  std::vector<std::vector<std::int32_t>> segments;  ///< that meet the interior, ascending
+  std::vector<int> winding;                         ///< around the lower left corner
+
+ private:
+  void add(std::int32_t s) {
+    const Geometry& g = outline_.geometry();
+    const Box box = box_of(g.point(s), g.point(g.next(s)));
+    for (std::size_t row = 0; row < rows_.size(); ++row) {
+      const double low = rows_[row].low.y, high = rows_[row].high.y;
+      if (low > box.high.y) break;
+      if (high < box.low.y) continue;
+      const bool crosses_low = low >= box.low.y;  // otherwise it is not around the corners
+      for (std::size_t column = 0; column < columns_.size(); ++column)
+        add(s, box, {{columns_[column].low.x, low}, {columns_[column].high.x, high}}, crosses_low,
+            row * columns_.size() + column);
+    }
+  }
+  void add(std::int32_t s, const Box& box, const Box& root, bool crosses_low, std::size_t number) {
+    if (crosses_low) winding[number] += outline_.winding_at(s, root.low);
+    if (box.meets(root) && outline_.meets(s, root)) segments[number].push_back(s);
+  }
+
+  const ShiftedOutline& outline_;
+  std::vector<Box> columns_, rows_;
+};
+
+}  // namespace
+
 SizeTree::SizeTree(const ShiftedOutline& outline, const TreeGrid& grid, const SizeOptions& options,
                    SizeRules::Unresolved unresolved, const DemandedSplits& demanded)
     : rules_{outline, grid, options, std::move(unresolved), demanded}, corners_{rules_.sized_corners()} {
-  const std::int32_t all = outline.geometry().size();
   // with all segments on each; reserved memory that is not filled costs nothing
   constexpr std::size_t levels = 6;
-  segments_.reserve(levels * all);
+  segments_.reserve(levels * outline.geometry().points().size());
+  RootContents contents(outline, grid);
   Node whole;
   whole.corners_end = size32(corners_);
   for (int ty = 0; ty < grid.trees_y(); ++ty) {
     for (int tx = 0; tx < grid.trees_x(); ++tx) {
+      const std::int32_t number = size();
+      const auto segments = std::exchange(contents.segments[number], {});
       Node root;
-      root.quadrant = {std::int64_t{tx} << Quadrant::unit_level, std::int64_t{ty} << Quadrant::unit_level, 0};
+      root.quadrant = RootContents::root_at(tx, ty);
       root.demanded = demanded.root(tx, ty);
-      const Box box = grid.box_of(root.quadrant);
       root.segments_begin = size32(segments_);
-      for (std::int32_t s = 0; s < all; ++s) {
-        root.winding = static_cast<std::int16_t>(root.winding + outline.winding_at(s, box.low));
-        if (outline.meets(s, box)) segments_.push_back(s);
-      }
+      segments_.insert(segments_.end(), segments.begin(), segments.end());
       root.segments_end = size32(segments_);
-      roots_.push_back(size());
-      add(root, box, whole);
+      root.winding = static_cast<std::int16_t>(contents.winding[number]);
+      roots_.push_back(number);
+      add(root, grid.box_of(root.quadrant), whole);
     }
   }
 }
