@@ -77,7 +77,8 @@ void CycleFiles::meshed(const MeshResult& mesh, const Field& start) {
   io::write_mesh(outputs, mesh.mesh, paths.native_mesh(), starts_afresh_ ? nullptr : &start);
   io::write_tree(outputs, mesh.tree, paths.tree());
   outputs.commit();
-  if (!options_.outline.empty()) write_text(comm_, paths.outline(), options_.outline);
+  if (options_.outline)
+    write_text(comm_, paths.outline(), comm_.is_root() ? options_.outline() : std::string());
   if (options_.partitions == 0) return;
   cell_parts_ = partition(comm_, mesh.mesh, options_.partitions);
   write_parts_of(mesh.mesh, starts_afresh_ ? nullptr : &start);

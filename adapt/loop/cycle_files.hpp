@@ -20,7 +20,8 @@ struct CycleFileOptions {
   /// are used.
   std::function<CycleRecord()> of_case;
   std::int32_t partitions = 0;  ///< parts of the mesh, in the formats that support them
-  std::string outline = {};     ///< text of the geometry file; empty: none is written
+  /// Returns the text of the geometry file, on the first rank; empty: none is written.
+  std::function<std::string()> outline = {};
 };
 
 /// Writes the results of the loop to the run's folder: one folder per cycle, renamed into place when

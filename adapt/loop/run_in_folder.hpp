@@ -26,7 +26,8 @@ struct AdaptiveCase {
   /// Reference state for the forces of an external solver; empty: forces are not computed.
   std::optional<flow::FreeStream> stream = {};
   std::int32_t partitions = 0;  ///< partitions of each cycle's mesh for a solver's ranks; 0: none
-  std::string outline = {};     ///< text of the geometry file that each cycle stores; empty: none
+  /// Returns the text of the geometry file that each cycle stores, on the first rank; empty: none.
+  std::function<std::string()> outline = {};
 };
 
 /// Start from the mesh, tree and solution of another run, possibly on a changed geometry.

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <functional>
+#include <string>
 #include <utility>
 #include <variant>
 
@@ -39,12 +41,14 @@ void require_solver_files(const CaseArguments& arguments, const adapt::CommandSo
                                  solver.mesh + "; give the solution another name");
 }
 
-/// Returns the geometry text to store with each cycle, if the next design's mesh is to be morphed from it.
-std::string outline_to_keep(const CaseInput& input) {
+/// Returns what makes the geometry text to store with each cycle, if the next design's mesh is to be morphed
+/// from it.
+std::function<std::string()> outline_to_keep(const CaseInput& input) {
   if (!input.settings.morph_to) return {};
   MeshReport told_of_the_mesh;
-  return io::geom_text(
-      without_small_islands(input.mesh->geometry, input.mesh->mesh.size.min, told_of_the_mesh));
+  const Geometry meshed =
+      without_small_islands(input.mesh->geometry, input.mesh->mesh.size.min, told_of_the_mesh);
+  return [meshed] { return io::geom_text(meshed); };
 }
 
 /// Returns the solver of the case, if it can work.
@@ -68,7 +72,7 @@ AdaptiveInput adaptive_input(CaseInput input, const CaseArguments& arguments, So
   const adapt::AdaptOptions& adapt = adapt_options(settings, arguments.source.path);
   adapt::ChosenSolver solver;
   if (by == SolvedBy::solver_of_case) solver = usable_solver(input, arguments);
-  const std::string outline = outline_to_keep(input);
+  std::function<std::string()> outline = outline_to_keep(input);
   AdaptiveInput prepared{
       {std::move(*input.mesh), adapt, std::move(solver), settings.formats, settings.values, settings.fields},
       settings.morph_to,
@@ -76,7 +80,7 @@ AdaptiveInput adaptive_input(CaseInput input, const CaseArguments& arguments, So
       {}};
   prepared.adaptive.stream = settings.stream;
   prepared.adaptive.partitions = settings.partitions;
-  prepared.adaptive.outline = outline;
+  prepared.adaptive.outline = std::move(outline);
   const flow::EulerOptions& flow = settings.solver.euler;
   if (!settings.solver.given && by == SolvedBy::solver_of_case)
     prepared.note = fmt::format("no table [solver]: the built-in solver runs at Mach {} and {} degrees",

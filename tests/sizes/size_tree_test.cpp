@@ -257,15 +257,18 @@ TEST(SizeTree, KnowsSegmentsAndSidesAlsoWhereVerticesLieOnTheLattice) {
     const Geometry geometry = star_on_grid(random, trial % 2 == 0);
     const ShiftedOutline outline(geometry);
     const Interior inside(outline);
-    const TreeGrid grid(Box{{0, 0}, {8, 8}}, 1, 1);
     const DemandedSplits demanded;
     SizeOptions options;
     options.min = 0.2;
     options.max = 2;
-    SizeTree tree(
-        outline, grid, options, [](const Quadrant&, std::span<const std::int32_t>) { return false; },
-        demanded);
-    expect_outline_at(tree, inside, tree.roots().front());
+    for (const int trees : {1, 4}) {
+      const TreeGrid grid(Box{{0, 0}, {8, 8}}, trees, trees);
+      SizeTree tree(
+          outline, grid, options, [](const Quadrant&, std::span<const std::int32_t>) { return false; },
+          demanded);
+      ASSERT_EQ(tree.roots().size(), static_cast<std::size_t>(trees) * trees);
+      for (const std::int32_t root : tree.roots()) expect_outline_at(tree, inside, root);
+    }
   }
 }
 

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "mesher/base/parallel/memory_file.hpp"
+#include "mesher/base/parallel/shared_array.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {
