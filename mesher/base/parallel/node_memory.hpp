@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/base/parallel/shared_array.hpp"
