@@ -75,9 +75,9 @@ struct AdaptationPlan;
 /// A case with its geometry: sizes, smoothing, adaptation, solver. Copies of the object share the data.
 class Case {
  public:
-  /// Reads a case file, or a case given as TOML text, on every rank. Outlines need no file: [[shape]] tables
-  /// hold their points. `assignments` override keys, e.g. "spacing.min=0.01". Throws InputError with file,
-  /// line and key.
+  /// Reads a case file, or a case given as TOML text, on every rank, and its geometry files on the first one.
+  /// Outlines need no file: [[shape]] tables hold their points. `assignments` override keys, e.g.
+  /// "spacing.min=0.01". Throws InputError with file, line and key.
   Case(const Communicator& comm, const CaseSource& source, const std::vector<std::string>& assignments = {});
 
   const std::string& title() const;

@@ -61,8 +61,8 @@ struct LoopBlocks {
 };
 
 /// The geometry of the domain: simple closed loops of named boundaries that do not cross, each with the
-/// domain to its left. The same on all ranks, whose memory may be shared: once_per_node(). Copies cost
-/// little. Segment v runs from vertex v to vertex next(v). A segment
+/// domain to its left. It is the same on all ranks, and the ranks of a node may share its memory:
+/// once_per_node(). Copies cost little. Segment v runs from vertex v to vertex next(v). A segment
 /// with domain on both sides, between two blocks or of an inner line, is stored twice, once in each
 /// direction: the two are twins. So a loop runs along an inner line and back.
 class Geometry {

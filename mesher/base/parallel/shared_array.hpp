@@ -27,7 +27,8 @@ class SharedArray {
   /// Takes `size` values at `values.get()`.
   SharedArray(std::shared_ptr<const T> values, std::size_t size) : values_{std::move(values)}, size_{size} {}
 
-  const T& operator[](std::size_t i) const { return values_.get()[i]; }
+  /// Sanitized builds check the index.
+  const T& operator[](std::size_t i) const { return std::span(data(), size_)[i]; }
   std::size_t size() const { return size_; }
   bool empty() const { return size_ == 0; }
   const T* data() const { return values_.get(); }
