@@ -93,34 +93,30 @@ void mark_pairs_that_stay(const Communicator& comm, io::LoadedMesh& loaded) {
   loaded.periodic_nodes.insert(loaded.periodic_nodes.end(), nodes.begin(), nodes.end());
 }
 
-/// Compares the mesh with the geometry; turns loops of this that are against the mesh. The root gets the
-/// boundaries. *Collective.*
+/// Compares the mesh with the geometry of the first rank, turns loops of this that are against the mesh, and
+/// gives it to all ranks. *Collective.*
 void match_geometry(const Communicator& comm, const std::string& path, Loaded& loaded, Warnings& warnings) {
-  if (!loaded.geometry) return;
   const Mesh boundaries = gather_boundaries(comm, loaded.mesh.mesh);
   std::vector<std::string> notes;
-  std::vector<char> turned;
-  comm.together([&] {
-    if (!comm.is_root()) return;
-    notes = smoother::require_match(*loaded.geometry, boundaries, path);
-    turned = smoother::loops_against(*loaded.geometry, boundaries);
+  comm.on_first([&] {
+    const Geometry& outline = *loaded.geometry;
+    notes = smoother::require_match(outline, boundaries, path);
+    loaded.geometry = smoother::with_loops_turned(outline, smoother::loops_against(outline, boundaries));
   });
   append(warnings, broadcast_words(comm, notes));
-  comm.broadcast(turned);
-  loaded.geometry = smoother::with_loops_turned(*loaded.geometry, turned);
+  loaded.geometry = Geometry::once_per_node(comm, std::move(loaded.geometry));
 }
 
-/// Every rank reads its share of the mesh, and the geometry (files are small compared with a mesh).
-/// *Collective.*
+/// Every rank reads its share of the mesh, and the first one the geometry. *Collective.*
 Loaded load(const CommandContext& context, const SmoothArguments& arguments) {
   const Communicator& comm = context.comm;
   Loaded loaded;
   Warnings& warnings = context.record.noted;
-  comm.together([&] {
+  comm.on_first([&] {
     io::require_readable_suffix(arguments.input);
     io::require_writable_suffix(arguments.output);
     if (!arguments.geometry.empty()) loaded.geometry = io::read_outline(arguments.geometry, warnings);
-    if (comm.is_root()) io::require_possible_outputs({arguments.output});
+    io::require_possible_outputs({arguments.output});
   });
   io::LoadedMesh& mesh = loaded.mesh = io::read_mesh(comm, arguments.input);
   std::vector<char> stay;
@@ -131,7 +127,7 @@ Loaded load(const CommandContext& context, const SmoothArguments& arguments) {
   });
   loaded.pinned = NodeFlags(in_even_shares(comm, std::move(stay)));
   append(warnings, mesh.warnings);
-  match_geometry(comm, arguments.geometry, loaded, warnings);
+  if (!arguments.geometry.empty()) match_geometry(comm, arguments.geometry, loaded, warnings);
   mark_pairs_that_stay(comm, mesh);
   if (arguments.sweeps > 0)
     append(warnings, io::fix_nodes(comm, mesh, arguments.fix, arguments.input, loaded.pinned));

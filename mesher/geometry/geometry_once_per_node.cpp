@@ -28,9 +28,10 @@ std::vector<Boundary> broadcast_boundaries(const Communicator& comm, const std::
   std::vector<std::string> words;
   std::vector<BoundaryValues> values;
   for (const Boundary& b : of_first) {
-    words.insert(words.end(), {b.name, b.layers_in});
-    values.push_back({b.spacing, b.corner_degrees, b.condition, b.corner_spacing, b.layers.has_value(),
-                      b.layers.value_or(LayerSpec{}), b.baffle});
+    const auto& [name, spacing, corner_degrees, condition, corner_spacing, layers, layers_in, baffle] = b;
+    words.insert(words.end(), {name, layers_in});
+    values.push_back({spacing, corner_degrees, condition, corner_spacing, layers.has_value(),
+                      layers.value_or(LayerSpec{}), baffle});
   }
   words = broadcast_words(comm, words);
   comm.broadcast(values);

@@ -19,7 +19,7 @@ struct CaseArguments {
 
 /// The settings of a case, with its geometry assembled.
 struct CaseInput {
-  Settings settings;
+  Settings settings;  ///< on other ranks than the first, without what the geometry files change in it
   std::optional<MeshInput> mesh;
   std::vector<FileExtent> extents;        ///< of the geometry files; on the first rank only
   std::vector<std::string> part_formats;  ///< of partitions, if the case requests them

@@ -72,7 +72,7 @@ SharedArray<std::byte> MemoryFile::finished() && {
 SharedArray<std::byte> mapped(const MemoryFile::Place& place) {
   // The number of a process may belong to another one here, as in another container: hence the comparison.
   const std::string path = fmt::format("/proc/{}/fd/{}", place.process, place.descriptor);
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
   if (descriptor < 0) return {};
   struct stat status {};
   std::byte* at = nullptr;
