@@ -173,9 +173,10 @@ class Trial:
         return None, "it hangs"
 
     def without_launcher(self, process):
-        """All ranks have ended, but mpirun has not: Open MPI 4.1.4 with PMIx 4.2.2 can wait for a lock of its own in PMIx_server_finalize()."""
+        """All ranks have ended, but mpirun has not: Open MPI 4.1.4 with PMIx 4.2.2 can wait for a lock of its own in PMIx_server_finalize(). The
+        exit status of the ranks is then unknown, and only what they said and left is judged."""
         os.killpg(process.pid, signal.SIGKILL)
-        return -signal.SIGKILL, process.communicate()[1]
+        return self.fault.status or -signal.SIGKILL, process.communicate()[1]
 
     def run_under_fault(self, seconds):
         """`seconds`: how long a run without a signal takes."""
