@@ -14,7 +14,7 @@ import tomllib
 from pathlib import Path
 
 from quadloop_runs import JUDGE, NativeMesh, beside_the_checkout, digest, fail, mesh_case, run
-from run_case import compare, values_of, write_expected
+from run_case import compare, expected_file, values_of, write_expected
 
 FORMATS = ("mesh", "qmesh", "cgns", "vtu", "msh", "msh41", "su2", "fluent.msh", "ugrid", "medit")
 FOLDER = "polyMesh"
@@ -138,8 +138,7 @@ def main():
             check_areas(args.quadloop, args.case, prefix, mesh_type)
             judge(args.case, prefix, mesh_type)
             found = values_of(prefix)
-            stem = "expected" if args.case.stem == "case" else f"expected_{args.case.stem}"
-            expected = args.case.with_name(f"{stem}{'' if mesh_type == 'hybrid' else '_delaunay'}.toml")
+            expected = expected_file(args.case, mesh_type)
             if args.write_expected:
                 write_expected(expected, found)
             elif expected.exists():

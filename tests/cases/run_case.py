@@ -77,6 +77,12 @@ def values_of(prefix):
             "area": mesh.area(), "digest": digest(f"{prefix}.mesh")}
 
 
+def expected_file(case, mesh_type):
+    """case.toml has its values in expected.toml, medium.toml in expected_medium.toml; those of the Delaunay mesh end with _delaunay."""
+    stem = "expected" if case.stem == "case" else f"expected_{case.stem}"
+    return case.with_name(f"{stem}{'' if mesh_type == 'hybrid' else '_delaunay'}.toml")
+
+
 def compare(found, expected):
     for key, value in expected.items():
         same = math.isclose(found[key], value, rel_tol=AREA_TOLERANCE) if key == "area" else found[key] == value
@@ -110,11 +116,7 @@ def main():
         another_judge(prefix, geometry, args.keeps_corners, args.type)
         check_cgns(prefix)
         found = values_of(prefix)
-    # case.toml has its values in expected.toml, medium.toml in expected_medium.toml
-    stem = "expected" if args.case.stem == "case" else f"expected_{args.case.stem}"
-    if args.type != "hybrid":
-        stem += f"_{args.type}"
-    expected = args.case.with_name(f"{stem}.toml")
+    expected = expected_file(args.case, args.type)
     if args.write_expected:
         write_expected(expected, found)
     elif expected.exists():

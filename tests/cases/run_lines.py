@@ -14,7 +14,7 @@ import tomllib
 from pathlib import Path
 
 from quadloop_runs import JUDGE, NativeMesh, beside_the_checkout, digest, fail, mesh_case, run
-from run_case import check_cgns, compare, values_of, write_expected
+from run_case import check_cgns, compare, expected_file, values_of, write_expected
 
 sys.path.append(str(Path(JUDGE).parent))
 from mesh_files import distances_from  # noqa: E402
@@ -169,7 +169,7 @@ def main():
                     fail(f"{file} of the polyMesh differs on 5 ranks")
             check_face_zones(f"{prefix}.mesh", work / f"{mesh_type}.polyMesh")
             found = values_of(prefix)
-            expected = args.case.with_name(f"expected{'' if mesh_type == 'hybrid' else '_delaunay'}.toml")
+            expected = expected_file(args.case, mesh_type)
             if args.write_expected:
                 write_expected(expected, found)
             else:

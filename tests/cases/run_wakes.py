@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Layers that go on along wakes: valid meshes of both types, no jump of areas anywhere, and the same bytes on any number of ranks. Files know the wake
-by its name: `check` measures it, `convert` and `smooth` keep it.
+"""Layers that go on along wakes: valid meshes of both types, the hybrid one with the case's expected values, no jump of areas anywhere, and the
+same bytes on any number of ranks. Files know the wake by its name: `check` measures it, `convert` and `smooth` keep it.
 
     run_wakes.py --quadloop PROGRAM --case FILE [--ranks N ...]
 """
@@ -8,9 +8,11 @@ import argparse
 import json
 import subprocess
 import tempfile
+import tomllib
 from pathlib import Path
 
 from quadloop_runs import MPIRUN, NativeMesh, fail, judge_mesh, mesh_case, run
+from run_case import compare, expected_file, values_of
 
 LARGEST_AREA_RATIO = 10  # over any inner edge, where a fan has hundreds
 SMALLEST_ANGLE = 15  # of a hybrid mesh; where strips meet the cells outside
@@ -77,7 +79,7 @@ def check_files(quadloop, prefix, folder, ranks):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--quadloop", required=True)
-    parser.add_argument("--case", required=True)
+    parser.add_argument("--case", required=True, type=Path)
     parser.add_argument("--ranks", type=int, nargs="+", default=[2, 3, 5])
     args = parser.parse_args()
     with tempfile.TemporaryDirectory(prefix="quadloop_wakes_") as folder:
@@ -86,6 +88,8 @@ def main():
             options = ["--type", mesh_type, "--set", 'output.formats=["mesh", "cgns", "vtu"]']
             mesh_case(args.quadloop, args.case, prefix, options=[*options, "--geometry-out", f"{prefix}.geom"])
             judge_mesh(prefix, f"{prefix}.geom", corners=True)
+            if mesh_type == "hybrid":
+                compare(values_of(prefix), tomllib.loads(expected_file(args.case, mesh_type).read_text()))
             said = figures(args.quadloop, f"{prefix}.mesh")
             check_rows(said)
             check_files(args.quadloop, prefix, folder, args.ranks)
