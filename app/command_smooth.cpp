@@ -176,7 +176,7 @@ std::string smooth_and_write(const CommandContext& context, const SmoothArgument
                              StageTimes& times) {
   const Communicator& comm = context.comm;
   const ReorderedMesh reordered(comm, loaded.mesh.mesh, space_filling_order(comm, loaded.mesh.mesh));
-  Mesh part = reordered.mesh(loaded.mesh.mesh);
+  Mesh part = reordered.take(loaded.mesh.mesh);
   const bool parallel =
       comm.any(!part.quads.empty()) && solver_statistics(comm, part).parallelogram_share() == 1;
   smoother::SmoothOptions options = options_of(comm, arguments, loaded, reordered, part);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <span>
+#include <utility>
 
 #include "mesher/base/id_vector.hpp"
 #include "mesher/geometry/box_tree.hpp"
@@ -59,7 +60,7 @@ class Survey {
       : front_{front}, outer_{outer}, edge_leaves_{edge_leaves}, places_{front} {
     columns_.resize(outer_.points.size());
     for (std::size_t b = 0; b < outer_.boundaries.size(); ++b) look_at(b);
-    columns_ = {};
+    std::exchange(columns_, {});
   }
 
   std::vector<UnsoundStrip> unsound(const Communicator& comm) && {

@@ -57,7 +57,7 @@ std::vector<std::int64_t> sorted_items(const Communicator& comm, std::vector<Key
   std::vector<std::int64_t> numbers;
   numbers.reserve(items.size());
   for (const Keyed& item : items) numbers.push_back(item.item);
-  items = {};
+  std::exchange(items, {});
   return in_even_shares(comm, std::move(numbers));
 }
 
@@ -84,7 +84,7 @@ NewNumbers new_numbers(const Communicator& comm, const Mesh& mesh, const RowMove
   std::int64_t next = comm.exclusive_sum(static_cast<std::int64_t>(moved));
   for (std::int64_t& number : own) number = next++;
   NewNumbers numbers = nodes.back(own);
-  own = {};
+  std::exchange(own, {});
   numbers.reserve(mesh.points.size());
   numbers.resize(mesh.points.size());
   const NodeOwners owners(comm, mesh.first_node);
@@ -214,6 +214,7 @@ void move_cells_back(const RowMove& move, const std::vector<std::array<NodeId, w
     for (const auto& cell : changed) nodes.push_back(numbers[cell[k].value()]);
     return move.back(nodes);
   };
+  old.resize(move.leaving().size());
   set_cells(
       part, column, [&](GlobalNodeId node) { return table.local(node, {}); }, old);
 }
@@ -289,7 +290,16 @@ Field ReorderedMesh::field(const Field& old) const {
   return field;
 }
 
+Mesh ReorderedMesh::take(Mesh& old) const {
+  Mesh reordered = mesh(old);
+  std::exchange(old.points, {});
+  std::exchange(old.triangles, {});
+  std::exchange(old.quads, {});
+  return reordered;
+}
+
 void ReorderedMesh::put_back(const Mesh& changed, Mesh& old) const {
+  old.points.resize(old.owned_nodes + old.ghosts.size());
   put_cells_back(changed, old);
   for (double Point::*coordinate : {&Point::x, &Point::y}) {  // one after the other, for less memory
     std::vector<double> values;

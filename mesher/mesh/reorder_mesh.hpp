@@ -32,6 +32,8 @@ class ReorderedMesh {
 
   /// Returns the mesh in the new order, without blocks; each boundary edge remains on its rank. *Collective.*
   Mesh mesh(const Mesh& old) const;
+  /// As mesh(), and frees the points and cells of the old mesh until put_back(). *Collective.*
+  Mesh take(Mesh& old) const;
   /// Returns values in the new order. *Collective.*
   template <std::ranges::contiguous_range Rows>
   auto of_nodes(const Rows& rows, std::size_t width = 1) const {
