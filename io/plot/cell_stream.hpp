@@ -18,7 +18,7 @@ template <class Item, class Visit>
 void hand_to_root(const Communicator& comm, std::size_t count, const Item& item, const Visit& visit) {
   using T = std::decay_t<decltype(item(std::size_t{}))>;
   static_assert(std::is_trivially_copyable_v<T>);
-  constexpr std::size_t piece = 4096;
+  constexpr std::size_t piece = 512;  // small, as the root maps buffers for the pieces of all ranks
   const std::vector<std::int64_t> counts = comm.all_gather(static_cast<std::int64_t>(count));
   if (!comm.is_root()) {
     for (std::size_t begin = 0; begin < count; begin += piece) {

@@ -19,7 +19,7 @@ namespace quadloop::io {
 namespace {
 
 constexpr Colour edge_ink{0.13, 0.17, 0.25}, line_ink{0.08, 0.08, 0.1};
-constexpr std::size_t batch = 4000;  // polygons or lines per path
+constexpr std::size_t batch = 1000;  // polygons or lines per path
 constexpr double smallest = 1.3;     // pixels between two edges that are still drawn individually
 constexpr double darkest = 0.42;     // maximum fraction of ink in an area with edges, or with shading instead
 constexpr std::size_t width_classes = 48;
