@@ -6,6 +6,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "app/command.hpp"
 #include "app/command_line.hpp"
@@ -185,14 +186,14 @@ std::string smooth_and_write(const CommandContext& context, const SmoothArgument
   const ShapeReport before = report_shapes(comm, part);
   times.begin("smooth");
   const smoother::SmoothReport smoothed = smoother::smooth_mesh(comm, part, options);
+  times.begin("report");
+  const ShapeReport after = report_shapes(comm, part);
   times.begin("check");
   if (parallel) warn_of_skew_quads(context, arguments.output, solver_statistics(comm, part));
-  reordered.put_back(part, loaded.mesh.mesh);
+  reordered.put_back(std::exchange(part, {}), loaded.mesh.mesh);
   require_valid(comm, loaded.mesh, arguments.input);
   times.begin("write");
   io::write_mesh_file(comm, loaded.mesh, arguments.output);
-  times.begin("report");
-  const ShapeReport after = report_shapes(comm, part);
   times.end();
   const std::vector<StageRow> stages = stage_rows(comm, times.stages());
   if (!comm.is_root()) return {};
