@@ -98,13 +98,11 @@ void mark_pairs_that_stay(const Communicator& comm, io::LoadedMesh& loaded) {
 /// gives it to all ranks. *Collective.*
 void match_geometry(const Communicator& comm, const std::string& path, Loaded& loaded, Warnings& warnings) {
   const Mesh boundaries = gather_boundaries(comm, loaded.mesh.mesh);
-  std::vector<std::string> notes;
   comm.on_first([&] {
     const Geometry& outline = *loaded.geometry;
-    notes = smoother::require_match(outline, boundaries, path);
+    append(warnings, smoother::require_match(outline, boundaries, path));
     loaded.geometry = smoother::with_loops_turned(outline, smoother::loops_against(outline, boundaries));
   });
-  append(warnings, broadcast_words(comm, notes));
   loaded.geometry = Geometry::once_per_node(comm, std::move(loaded.geometry));
 }
 

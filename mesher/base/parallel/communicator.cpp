@@ -227,7 +227,7 @@ void Communicator::exchange_messages(std::span<const Outgoing> out, std::span<co
 
 void Communicator::send_bytes(std::span<const std::byte> bytes, int to) const {
   const std::uint64_t size = bytes.size();
-  MPI_Send(&size, 1, MPI_UINT64_T, to, 2, comm_);
+  MPI_Ssend(&size, 1, MPI_UINT64_T, to, 2, comm_);  // waits for the receiver
   for_pieces(bytes.size(), largest_message, [&](std::size_t begin, int length) {
     MPI_Send(bytes.data() + begin, length, MPI_BYTE, to, 3, comm_);
   });

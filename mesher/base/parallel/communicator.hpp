@@ -94,7 +94,7 @@ class Communicator {
   void exchange_messages(std::span<const Outgoing> out, std::span<const Incoming> in,
                          std::size_t largest_piece = largest_message) const;
 
-  /// Point to point, not collective: sends to or receives from one rank. Any length.
+  /// Point to point, not collective. Sending waits until the receiver asks: it buffers nothing. Any length.
   void send_bytes(std::span<const std::byte> bytes, int to) const;
   std::vector<std::byte> receive_bytes(int from) const;
 
