@@ -48,7 +48,7 @@ class Relaxation {
     const std::string cause = text_of(*first);
     const double value = loosen(demands, first);
     for (std::size_t named = 1; !fits(settings_); ++named) {
-      if (named == most_named || demands.empty()) return cause + ", and others for too many";
+      if (named == most_named || demands.empty()) return cause + ", and other settings cause too many as well";
       const auto next = cause_among(demands);
       const std::string key = next->key;
       const double before = next->value;

@@ -8,14 +8,15 @@
 namespace quadloop::io {
 
 Ticks round_ticks(double low, double high, double most) {
+  constexpr int limit = 40;
   Ticks ticks;
-  const double raw = (high - low) / std::max(most, 2.0);
+  const double raw = (high - low) / std::clamp(most, 2.0, limit - 1.0);
   const double power = std::pow(10.0, std::floor(std::log10(raw)));
   const double step = power * (raw > 5 * power ? 10 : raw > 2 * power ? 5 : raw > power ? 2 : 1);
   const int decimals = std::max(0, -static_cast<int>(std::floor(std::log10(step) + 1e-9)));
   const bool plain = decimals <= 7 && std::max(std::abs(low), std::abs(high)) < 1e7;
   const double first = std::ceil(low / step - 1e-9);
-  for (int i = 0; i < 40 && (first + i) * step <= high + 1e-9 * step; ++i) {
+  for (int i = 0; i < limit && (first + i) * step <= high + 1e-9 * step; ++i) {
     const double value = (first + i) * step;
     ticks.values.push_back(value);
     ticks.labels.push_back(plain ? fmt::format("{:.{}f}", value == 0 ? 0.0 : value, decimals)

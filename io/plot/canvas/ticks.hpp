@@ -11,7 +11,7 @@ struct Ticks {
   std::vector<std::string> labels;
 };
 
-/// Returns about `most` round numbers between low and high.
+/// Returns about `most` round numbers between low and high, at most 40.
 Ticks round_ticks(double low, double high, double most);
 
 /// Returns at most `most` powers of ten between low and high, which must be positive.

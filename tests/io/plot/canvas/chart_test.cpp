@@ -16,6 +16,7 @@ namespace quadloop::io {
 namespace {
 
 TEST(Ticks, AreRoundNumbersOrDecades) {
+  EXPECT_EQ(round_ticks(0, 40.2, 60).values.back(), 40);  // a long axis has no more than 40
   EXPECT_EQ(round_ticks(0.13, 0.61, 5).labels, (std::vector<std::string>{"0.2", "0.3", "0.4", "0.5", "0.6"}));
   EXPECT_EQ(decade_ticks(2e-5, 3, 10).labels,
             (std::vector<std::string>{"1e-4", "1e-3", "1e-2", "1e-1", "1e0"}));
